@@ -71,11 +71,11 @@ Complex hold(double omega, double period) {
   return (1.0 - std::exp(-jwt)) / jwt;
 }
 
-// Uncertainty (standard deviation) of a sinusoid's amplitude due to encoder quantisation. For amplitude A and quantum q
-// the harmonics of the rounding error alias onto the fundamental. Their phase is unknown. Their amplitude is
-// proportional to q times the Bessel function J1(2 pi A / q), which decreases as sqrt(q / A).
+// Standard deviation of a sinusoid's amplitude due to encoder quantisation. For amplitude A and quantum q, rounding adds
+// (2 q / pi) sum over n of J1(2 pi n A / q) / n cos(n phase) to the fundamental. J1 decreases as sqrt(q / (pi^2 n A)), and
+// the phases depend on the amplitude in quanta, so their RMS is q sqrt(q / A) sqrt(2 zeta(3)) / pi^2.
 double rounding_deviation(double amplitude, double quantum) {
-  return amplitude > 0.0 ? 0.1 * quantum * std::sqrt(quantum / amplitude) : 0.0;
+  return amplitude > 0.0 ? 0.157 * quantum * std::sqrt(quantum / amplitude) : 0.0;
 }
 
 }  // namespace
@@ -235,10 +235,13 @@ void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading)
 void FrequencySweep::end_window() noexcept {
   FrequencyPoint window = evaluate();
   const double difference = std::abs(window.response / last_window_.response - 1.0);
-  const double noise = 3.0 * std::hypot(window.deviation, last_window_.deviation);
+  const double noise =
+      3.0 * std::hypot(window.deviation, last_window_.deviation, std::max(window.rounding, last_window_.rounding));
   const bool is_consistent = windows_ > 0 && difference <= std::max(kAgreement, noise);
   last_window_ = window;
-  window.deviation = std::max({window.deviation, 0.5 * difference, kMinDeviation});
+  // A difference that noise does not explain shows that the response still changes.
+  if (difference > noise) window.deviation = std::max(window.deviation, 0.5 * difference);
+  window.deviation = std::max(window.deviation, kMinDeviation);
   if (is_consistent) {
     record_point(window, PointEnd::measured);
   } else if (++windows_ == kMaxWindows) {
@@ -258,9 +261,11 @@ FrequencyPoint FrequencySweep::evaluate() const noexcept {
   FrequencyPoint point;
   point.frequency = frequency;
   point.amplitude = std::abs(sent.value);
+  point.motion = size;
   point.bounded_by_stroke = is_reduced_ || envelope_.to < max_amplitude_;
   point.response = position.value / force;
-  point.deviation = std::hypot(position.deviation / size, rounding / size, hand.deviation / std::abs(force));
+  point.rounding = rounding / size;
+  point.deviation = std::hypot(position.deviation / size, hand.deviation / std::abs(force));
   point.held = held / force;
   return point;
 }

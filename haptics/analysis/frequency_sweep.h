@@ -47,10 +47,12 @@ enum class PointEnd : std::uint8_t {
 struct FrequencyPoint {
   double frequency = 0.0;          // [Hz]
   double amplitude = 0.0;          // [N] amplitude of the force in the paper's eq (9)
+  double motion = 0.0;             // [m] amplitude of the position
   bool bounded_by_stroke = false;  // the stroke limits the amplitude, not force_fraction
   PointEnd end = PointEnd::measured;
   std::complex<double> response{0.0};  // [m/N] measured G(j omega): position per force f_j of the paper's eq (4)
   double deviation = 0.0;              // standard deviation of the relative gain [1] and of the phase [rad]
+  double rounding = 0.0;               // [1] standard deviation of the gain by encoder rounding, in addition
   std::complex<double> held{1.0};      // [1] motors' fraction of the force; only this part is held between samples
 };
 

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace gearshift::haptics {
 namespace {
@@ -20,8 +21,12 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr std::size_t kMinPoints = 3;
+constexpr int kMaxRounds = 12;  // of choosing the points and fitting them
 
-AxisModel model_of(glm::dvec3 p) {
+using Parameters = glm::dvec4;  // mass, damping, stiffness, dry friction
+
+AxisModel model_of(const Parameters& p) {
   return {p[0], p[1], p[2]};
 }
 
@@ -29,7 +34,7 @@ std::vector<FrequencyPoint> measured_points(const FrequencyResponse& response) {
   std::vector<FrequencyPoint> points;
   std::copy_if(response.points.begin(), response.points.end(), std::back_inserter(points),
                [](const FrequencyPoint& point) { return point.end == PointEnd::measured; });
-  if (points.size() < 3) {
+  if (points.size() < kMinPoints) {
     throw std::invalid_argument("fit_axis: mass, damping and stiffness need at least 3 measured points, not " +
                                 std::to_string(points.size()));
   }
@@ -48,15 +53,49 @@ Complex held_compliance(const AxisModel& axis, double frequency, double period) 
   return sampled * jwt / (1.0 - 1.0 / z);
 }
 
+// Dry friction on a lever that swings at this point's frequency and amplitude: a square wave, whose higher harmonics move
+// the lever, too, and so its turn by an angle against the first. Exact as long as the lever turns once per half period and
+// does not stick (Den Hartog. Forced Vibrations with Combined Coulomb and Viscous Friction. 1931).
+struct FrictionWave {
+  double damping = 0.0;       // [N s/m] 4 F / (pi v): first harmonic over the speed
+  double sine = 0.0;          // [1] of the angle of the turn
+  bool turns_cleanly = true;  // false: sticks, or turns more than once
+};
+
+FrictionWave friction_wave(const AxisModel& axis, double friction, const FrequencyPoint& point) {
+  constexpr int kHighest = 41;  // harmonics above see only the mass, so the rest of the sum has a closed form
+  const double w = kTwoPi * point.frequency, speed = w * point.motion;
+  if (friction == 0.0 || speed == 0.0) return {};
+  FrictionWave wave{4.0 * friction / (std::numbers::pi * speed)};
+  wave.sine = -wave.damping / (w * axis.mass) / (2.0 * (kHighest + 1));
+  wave.turns_cleanly = axis.mass * w * speed > friction;
+  for (int n = 3; n <= kHighest; n += 2) {
+    const Complex mobility = Complex(0.0, n * w) * compliance(axis, n * point.frequency);
+    wave.sine += wave.damping / n * mobility.imag();
+    if (wave.damping * std::abs(mobility) > 1.0) wave.turns_cleanly = false;
+  }
+  return wave;
+}
+
+// The linear axis that responds at this point's frequency and amplitude like the axis with dry friction.
+AxisModel with_friction(AxisModel axis, double friction, const FrequencyPoint& point) {
+  const FrictionWave wave = friction_wave(axis, friction, point);
+  const double sine = std::clamp(wave.sine, -1.0, 1.0);
+  axis.damping += wave.damping * std::sqrt(1.0 - sine * sine);
+  axis.stiffness += wave.damping * kTwoPi * point.frequency * sine;
+  return axis;
+}
+
 // The response that a frequency sweep would report for this axis.
-Complex expected_response(const AxisModel& axis, const FrequencyPoint& point, double period) {
+Complex expected_response(const Parameters& p, const FrequencyPoint& point, double period) {
+  const AxisModel axis = with_friction(model_of(p), p[3], point);
   const Complex held = held_compliance(axis, point.frequency, period);
   return point.held * held + (1.0 - point.held) * compliance(axis, point.frequency);
 }
 
 // Initial guess of mass m, damping b and stiffness k, which ignores the sample-and-hold. The real part of 1/G is linear
 // in k and m, and the imaginary part is linear in b.
-glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
+Parameters linear_fit(const std::vector<FrequencyPoint>& points) {
   double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_numerator = 0.0, b_denominator = 0.0;
   for (const FrequencyPoint& point : points) {
     const Complex z = 1.0 / point.response;
@@ -66,34 +105,37 @@ glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
     b_numerator += weight * w * z.imag(), b_denominator += weight * w2;
   }
   const double mass = (sz * sw - szw * s1) / (s1 * sww - sw * sw);
-  return {mass, b_numerator / b_denominator, (sz + mass * sw) / s1};
+  return {mass, b_numerator / b_denominator, (sz + mass * sw) / s1, 0.0};
 }
 
 // Sums of r^2, g r and g g^T over all residuals r with gradient g, for a least-squares step. Residuals are in units of
 // their standard deviation.
 struct NormalEquations {
-  glm::dmat3 matrix{0.0};
-  glm::dvec3 slope{0.0};
+  glm::dmat4 matrix{0.0};
+  Parameters slope{0.0};
   double squares = 0.0;
+  int residuals = 0;
 
-  void add(double residual, glm::dvec3 gradient) {
+  void add(double residual, const Parameters& gradient) {
     matrix += glm::outerProduct(gradient, gradient);
     slope += gradient * residual;
     squares += residual * residual;
+    ++residuals;
   }
 };
 
-NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm::dvec3 p, double period) {
+NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, const Parameters& p, double period) {
   NormalEquations sum;
   for (const FrequencyPoint& point : points) {
-    const auto residual = [&](glm::dvec3 at) {
-      return (expected_response(model_of(at), point, period) / point.response - 1.0) / point.deviation;
+    const auto residual = [&](const Parameters& at) {
+      const Complex error = expected_response(at, point, period) / point.response - 1.0;
+      return Complex(error.real() / std::hypot(point.deviation, point.rounding), error.imag() / point.deviation);
     };
     const Complex here = residual(p);
-    glm::dvec3 real{0.0}, imaginary{0.0};
-    for (int i = 0; i < 3; ++i) {
-      glm::dvec3 shifted = p;
-      const double step = 1e-6 * std::max(std::abs(p[i]), 1e-6);
+    Parameters real{0.0}, imaginary{0.0};
+    for (int i = 0; i < 4; ++i) {
+      Parameters shifted = p;
+      const double step = 1e-6 * std::max(std::abs(p[i]), i == 3 ? 1e-2 : 1e-6);
       shifted[i] += step;
       const Complex slope = (residual(shifted) - here) / step;
       real[i] = slope.real(), imaginary[i] = slope.imag();
@@ -104,13 +146,55 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm:
   return sum;
 }
 
-double misfit_of(const NormalEquations& sum, std::size_t points) {
-  const double degrees_of_freedom = 2.0 * static_cast<double>(points) - 3.0;
-  return std::sqrt(sum.squares / degrees_of_freedom);
+double misfit_of(const NormalEquations& sum) {
+  return std::sqrt(sum.squares / std::max(1.0, sum.residuals - 4.0));
 }
 
-bool has_mass(glm::dvec3 p) {
-  return p[0] > 0.0 && std::isfinite(p[0] + p[1] + p[2]);
+bool has_mass(const Parameters& p) {
+  return p[0] > 0.0 && std::isfinite(p[0] + p[1] + p[2] + p[3]);
+}
+
+// Points at which the lever turns once per half period, without sticking.
+std::vector<FrequencyPoint> turning_points(const std::vector<FrequencyPoint>& points, const Parameters& p) {
+  std::vector<FrequencyPoint> turning;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(turning),
+               [&](const FrequencyPoint& point) { return friction_wave(model_of(p), p[3], point).turns_cleanly; });
+  return turning;
+}
+
+struct LeastSquares {
+  Parameters parameters{0.0};
+  NormalEquations sum;
+  bool converged = false;
+};
+
+LeastSquares fit_points(const std::vector<FrequencyPoint>& points, double period, Parameters p) {
+  constexpr int kMaxIterations = 30;
+  constexpr double kConvergence =
+      1e-6;  // [1] largest final step, in standard deviations; a relative limit would fail for a parameter of 0
+  LeastSquares fit;
+  for (int iteration = 0; iteration < kMaxIterations && !fit.converged && has_mass(p); ++iteration) {
+    fit.sum = normal_equations(points, p, period);
+    const Parameters step = glm::inverse(fit.sum.matrix) * fit.sum.slope;
+    p -= step;
+    fit.converged = std::sqrt(glm::dot(step, fit.sum.slope)) <= kConvergence * std::max(1.0, misfit_of(fit.sum));
+  }
+  if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis with positive mass has this response");
+  fit.parameters = p;
+  return fit;
+}
+
+// Standard uncertainty of the parameters. A misfit beyond chance scales it. Rounding changes the gain of all points that
+// have the same amplitude by the same factor, and this factor scales every parameter.
+Parameters deviation_of(const std::vector<FrequencyPoint>& points, const NormalEquations& sum, const Parameters& p) {
+  const double misfit = misfit_of(sum), chance = 1.0 + 3.0 / std::sqrt(2.0 * sum.residuals);
+  const auto widest =
+      std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.motion < b.motion; });
+  const glm::dmat4 covariance = glm::inverse(sum.matrix);
+  Parameters deviation;
+  for (int i = 0; i < 4; ++i)
+    deviation[i] = std::hypot((misfit > chance ? misfit : 1.0) * std::sqrt(covariance[i][i]), widest->rounding * p[i]);
+  return deviation;
 }
 
 }  // namespace
@@ -121,29 +205,24 @@ Complex compliance(const AxisModel& axis, double frequency) noexcept {
 }
 
 AxisFit fit_axis(const FrequencyResponse& response) {
-  constexpr int kMaxIterations = 30;
-  constexpr double kConvergence =
-      1e-6;  // [1] largest final step, in standard deviations; a relative limit would fail for a parameter of 0
-  const std::vector<FrequencyPoint> points = measured_points(response);
-  glm::dvec3 p = linear_fit(points);
-  NormalEquations sum;
-  double change = 1.0;
-  for (int iteration = 0; iteration < kMaxIterations && !(change <= kConvergence) && has_mass(p); ++iteration) {
-    sum = normal_equations(points, p, response.period);
-    const glm::dvec3 step = glm::inverse(sum.matrix) * sum.slope;
-    p -= step;
-    change = std::sqrt(glm::dot(step, sum.slope)) / std::max(1.0, misfit_of(sum, points.size()));
+  const std::vector<FrequencyPoint> measured = measured_points(response);
+  std::vector<FrequencyPoint> points = measured;
+  LeastSquares fit = fit_points(points, response.period, linear_fit(points));
+  for (int round = 0; round < kMaxRounds; ++round) {
+    // In the last rounds points are only removed, so that the fit ends.
+    const std::vector<FrequencyPoint> turning =
+        turning_points(round < kMaxRounds / 2 ? measured : points, fit.parameters);
+    if (turning.size() < kMinPoints)
+      throw std::invalid_argument("fit_axis: dry friction holds the lever at each turn, at nearly every frequency");
+    if (turning.size() == points.size()) break;
+    points = turning;
+    fit = fit_points(points, response.period, fit.parameters);
   }
-  if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis with positive mass has this response");
-  if (!(change <= kConvergence))
+  if (!fit.converged)
     throw std::invalid_argument(
         "fit_axis: no axis fits this response, because the fit did not converge in 30 iterations");
-
-  const double misfit = misfit_of(sum, points.size());
-  const glm::dmat3 covariance = glm::inverse(sum.matrix);
-  glm::dvec3 deviation;
-  for (int i = 0; i < 3; ++i) deviation[i] = std::max(1.0, misfit) * std::sqrt(covariance[i][i]);
-  return {model_of(p), model_of(deviation), misfit, static_cast<int>(points.size())};
+  const Parameters &p = fit.parameters, deviation = deviation_of(points, fit.sum, p);
+  return {model_of(p), model_of(deviation), p[3], deviation[3], misfit_of(fit.sum), static_cast<int>(points.size())};
 }
 
 // Solves |1/G|^2 = 1 / gain^2 for w^2; |1/G|^2 = m^2 w^4 + (b^2 - 2 m k) w^2 + k^2 is quadratic in w^2.

@@ -22,15 +22,19 @@ std::complex<double> compliance(const AxisModel& axis, double frequency) noexcep
 
 struct AxisFit {
   AxisModel model;
-  AxisModel deviation;  // standard uncertainty of mass, damping and stiffness
-  double misfit = 0.0;  // [1] scatter of the points relative to their stated deviations; above 1 it scales `deviation`
-  int points = 0;       // number of points used in the fit
+  AxisModel deviation;              // standard uncertainty of mass, damping and stiffness
+  double friction = 0.0;            // [N] dry friction; noise may make it slightly negative
+  double friction_deviation = 0.0;  // [N] its standard uncertainty
+  double misfit =
+      0.0;         // [1] scatter of the points relative to their deviations; beyond chance it scales the uncertainty
+  int points = 0;  // number of points used in the fit
 };
 
-// Fits mass m, damping b and stiffness k of 1/G = k - m w^2 + j b w to the measured points by weighted least squares.
-// Then refines the fit with the exact response to a force that the motors hold between samples. The measured response
-// already accounts for the delay. Throws std::invalid_argument with one sentence if fewer than three points were
-// measured, the fitted mass is not positive, or the fit does not converge.
+// Fits mass m, damping b, stiffness k and dry friction to the measured points by weighted least squares, with the exact
+// response to a force that the motors hold between samples. The measured response already accounts for the delay.
+// Friction counts as damping of 4 F / (pi v) at the speed v of each point's motion, which tells it from b; points at which
+// friction holds the lever at each turn are left out. Throws std::invalid_argument with one sentence if fewer than three
+// points remain, the fitted mass is not positive, or the fit does not converge.
 AxisFit fit_axis(const FrequencyResponse& response);
 
 // Highest frequency [Hz] at which the axis still moves `gain` [m] per newton; 0 if it never does.

@@ -46,6 +46,7 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 // means that a hand is on the lever.
 constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
+constexpr double kMinFriction = 0.02;        // [N] less is not worth a word
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000, kPeakTime = 100'000'000;  // [ns]
 constexpr std::int64_t kOffTime = 100'000'000;  // [ns] for all effects to be stopped
@@ -695,6 +696,8 @@ std::string Calibrator::measure_handle() {
     own_spring[i] = share * handle[i].stiffness;
     sentence += (sentence.empty() ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) +
                 " kg, " + number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
+    const double friction = found[i].friction * axis.force_per_magnitude();  // [N]
+    if (friction >= kMinFriction) sentence += ", " + number_text(friction, 2) + " N of dry friction";
   }
   for (const std::size_t i : motors()) {
     axis_of(i).handle = handle[i];

@@ -1,9 +1,9 @@
 // Identifies a lever's dynamics and delay from short force pulses: fits the exact response of a mass with damping and a
-// spring by least squares.
+// spring and dry friction by least squares.
 //
-//   x'' + damping x' + stiffness x = gain u(t - delay),   u = the pulse's steps of force
+//   x'' + damping x' + stiffness x = gain (u(t - delay) - friction sign x'),   u = the pulse's steps of force
 //
-// The gain and each pulse's starting position follow in closed form from the other three parameters (variable
+// The gain and each pulse's starting position follow in closed form from the other four parameters (variable
 // projection), which are found by the Levenberg-Marquardt method.
 //
 // This work is based on:
@@ -37,6 +37,7 @@ struct PulseFit {
   double damping = 0.0;    // [1/s] damping divided by mass
   double stiffness = 0.0;  // [1/s^2] stiffness divided by mass
   double delay = 0.0;      // [s]
+  double friction = 0.0;   // [1] dry friction as a fraction of the full force
   double residual = 0.0;   // [1] RMS of the residuals divided by the RMS of the motion
 };
 

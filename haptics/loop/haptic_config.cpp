@@ -19,17 +19,34 @@ namespace {
 
 // These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see
 // haptics/loop/README.md.
-constexpr double kQuiet = 0.35;          // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
-constexpr double kQuietObserved = 0.58;  // [1] observer hold: limit of stiffness*lag^2/mass
-constexpr double kObservedTau = 0.0125;  // [s] longest lag at which the observer hold is preferred
-constexpr double kGainMargin = 1.1;      // [1] factor on the stiffness, a margin for plant error and jitter
+constexpr double kQuiet = 0.35;           // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
+constexpr double kQuietObserved = 0.58;   // [1] observer hold: limit of stiffness*lag^2/mass
+constexpr double kObservedTau = 0.0125;   // [s] longest lag at which the observer hold is preferred
+constexpr double kGainMargin = 1.1;       // [1] factor on the stiffness, a margin for plant error and jitter
+constexpr double kMaxCountForce = 3.0;    // [N] largest change of a damping force by one encoder count
+constexpr double kSlowImpact = 0.1;       // [m/s] the encoder must resolve a contact at this speed
+constexpr double kMinCounts = 3.0;        // [counts] least depth at which a wall stops a lever of that speed
+constexpr double kMaxCountSpeed = 0.125;  // [m/s] largest change of the observed velocity by one encoder count
+constexpr double kQuietCoarse = 0.2;      // [1] replaces kQuiet where a count changes the observed velocity by more
+constexpr double kFastImpact = 1.0;       // [m/s] the slew limit must follow a contact at this speed
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kCoarseLaw =
+    "with so coarse an encoder, the half-sample hold is quiet only if K <= 0.2 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
 constexpr const char* kObservedDampingLaw = "the observer hold is stiff and quiet with B = 0.7 m / tau";
 constexpr const char* kObserverLaw = "with the observer hold, the spectral radius of the loop is not below 1 at any K";
+constexpr const char* kCountDampingLaw =
+    "one encoder count q changes the damping force by at most 3 N if B <= 3 N T / q";
+constexpr const char* kCountFreeDampingLaw =
+    "one encoder count q changes the damping force by at most 3 N if B <= 3 N T / (q (1 - exp(-T / smoothing)))";
+constexpr const char* kCountStiffnessLaw =
+    "the encoder resolves a contact at 0.1 m/s, by 3 counts q, only if K <= m (0.1 m/s / (3 q))^2";
+constexpr const char* kCountObserverLaw =
+    "with the observer hold, one encoder count q changes the velocity by more than 0.125 m/s";
+constexpr const char* kSlewLaw = "the slew limit S per cycle follows a contact at 1 m/s only if K <= S / (T 1 m/s)";
 constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
 // Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
@@ -58,13 +75,20 @@ double lag(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return (spec.delay + 1.0) * period_s(config);
 }
 
+// One encoder count changes the observed velocity by about the count times the observer's bandwidth. If that is more than
+// kMaxCountSpeed, a slow contact with the observer hold gains energy.
+bool can_observe(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  return observer_bandwidth(period_s(config)) * spec.position_step <= kMaxCountSpeed;
+}
+
 // Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the rate or the device's
 // delay.
 ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
   const bool suffices = loop_stiffness(config.tuning, spec) <= kQuiet * lighter_mass(spec) / (tau * tau);
-  return suffices || tau > kObservedTau ? ContactHold::half_sample : ContactHold::observer;
+  const bool is_observed = !suffices && tau <= kObservedTau && can_observe(config, spec);
+  return is_observed ? ContactHold::observer : ContactHold::half_sample;
 }
 
 void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
@@ -76,8 +100,37 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   const bool observed = admitted.hold == ContactHold::observer;
   if (!observed) limiter.limit(tuning.wall_damping, damping, &HapticTuning::wall_damping, kDampingLaw);
   if (admitted.hold == ContactHold::zero_order) return;
-  const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
-  limiter.limit(tuning.wall_stiffness, stiffness, &HapticTuning::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
+  const auto limit_stiffness = [&](double factor, const char* law) {
+    limiter.limit(tuning.wall_stiffness, factor * lighter_mass(spec) / (tau * tau), &HapticTuning::wall_stiffness, law);
+  };
+  if (observed) return limit_stiffness(kQuietObserved, kObservedLaw);
+  limit_stiffness(kQuiet, kQuietLaw);
+  if (!can_observe(config, spec)) limit_stiffness(kQuietCoarse, kCoarseLaw);
+}
+
+// Limits what the encoder's resolution allows. A count changes the velocity of one cycle by q / (window T), and so the
+// damping force by B q / (window T); the filter of the smooth velocity passes 1 - exp(-T / smoothing) of it.
+void limit_to_resolution(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                         const Limiter& limiter) {
+  if (spec.position_step == 0.0) return;
+  HapticTuning& tuning = admitted.tuning;
+  const double period = period_s(config);
+  const double damping = kMaxCountForce * config.estimator.window * period / spec.position_step;
+  const double free_damping = damping / -std::expm1(-period / config.estimator.smoothing);
+  const double stop_time = kMinCounts * spec.position_step / kSlowImpact;
+  limiter.limit(tuning.aisle_damping, free_damping, &HapticTuning::aisle_damping, kCountFreeDampingLaw);
+  limiter.limit(tuning.limit_damping, free_damping, &HapticTuning::limit_damping, kCountFreeDampingLaw);
+  if (admitted.hold != ContactHold::observer)
+    limiter.limit(tuning.wall_damping, damping, &HapticTuning::wall_damping, kCountDampingLaw);
+  limiter.limit(tuning.wall_stiffness, lighter_mass(spec) / (stop_time * stop_time), &HapticTuning::wall_stiffness,
+                kCountStiffnessLaw);
+}
+
+// Limits the stiffness to what the guard's slew limit can follow. If the force lags behind a contact, it also falls too
+// late, and the wall adds energy.
+void limit_to_slew(const HapticConfig& config, AdmittedTuning& admitted, const Limiter& limiter) {
+  limiter.limit(admitted.tuning.wall_stiffness, config.guard.slew / (period_s(config) * kFastImpact),
+                &HapticTuning::wall_stiffness, kSlewLaw);
 }
 
 // Sets the damping of the observer hold, which does not depend on what is wanted, except with allow_unstable.
@@ -220,14 +273,14 @@ void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter pa
   if (limit->bound >= wanted) admitted.limits.erase(limit);
 }
 
-// Admits the tuning with the half-sample hold. Used if the observer hold is selected, but the damping that it needs is
-// unstable on this device.
+// Admits the tuning with the half-sample hold. Used if the observer hold is selected, but cannot be used on this device
+// because of `law`.
 AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, const Gate& gate,
-                                        std::string_view hand) {
+                                        const char* law, std::string_view hand) {
   config.contact.hold = ContactHold::half_sample;
   AdmittedTuning fallback = admit_tuning(config, device, gate);
   const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(fallback.hold);
-  fallback.limits.push_back({kObserverLaw, kHold, from, to, to, std::string(hand)});
+  fallback.limits.push_back({law, kHold, from, to, to, std::string(hand)});
   return fallback;
 }
 
@@ -311,17 +364,22 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   check_unstable_options(config, device);
   DeviceSpec spec = scale_device_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, select_hold(config, spec), {}};
+  if (out.hold == ContactHold::observer && !can_observe(config, spec) && !config.contact.allow_unstable)
+    return fall_back_to_half_sample(config, device, gate, kCountObserverLaw, {});
   if (out.hold == ContactHold::observer)
     spec.device_wall_damping = glm::dvec2(0.0);  // the observer would attribute the damper's force to the hand
   out.tuning.wall_damping -= usable_wall_damping(spec);
   const Limiter limiter{config.contact.allow_unstable, out.limits};
   limit_to_quiet(config, spec, out, limiter);
+  limit_to_resolution(config, spec, out, limiter);
+  limit_to_slew(config, out, limiter);
   limit_free_damping(config, spec, out, limiter);
   limit_damping_with_device_walls(config, spec, out, limiter);
   set_observed_damping(config, spec, out);
   const StableStiffness stable = stable_stiffness(config, out, spec);
   if (stable.max == 0.0 && !config.contact.allow_unstable) {
-    if (out.hold == ContactHold::observer) return fall_back_to_half_sample(config, device, gate, stable.hand);
+    if (out.hold == ContactHold::observer)
+      return fall_back_to_half_sample(config, device, gate, kObserverLaw, stable.hand);
     if (usable_wall_stiffness(spec) == 0.0)
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }

@@ -165,6 +165,10 @@ void check_device(const DeviceSpec& spec);
 //   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58) and damping B <= 0.35 m / tau (observer hold: exactly
 //              0.7), with the mass m of the lighter axis and the lag tau = (delay + 1) * period. The factors were found
 //              by a search over hands, impact phases, quantisation, jitter and plant error.
+//   resolution One encoder count q changes a damping force by at most 3 N (B q / T), and a wall stops a lever of 0.1 m/s
+//              within 3 counts or more. If a count changes the observed velocity by more than 0.125 m/s, the half-sample
+//              hold replaces the observer, with K <= 0.2 m / tau^2.
+//   slew       K <= slew / (T 1 m/s): the force follows a contact at 1 m/s.
 //   stable     The spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K
 //              with `aisle_damping`, with and without `limit_damping`; in free space with both dampings.
 //   feel       The gate's feel is no stiffer than the wall that carries the proxy.

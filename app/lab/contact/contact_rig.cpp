@@ -19,6 +19,8 @@ using glm::dvec2;
 
 constexpr double kWall = 0.005;    // [m] the wall; this near the centre, plane and arc positions agree within 0.1 %
 constexpr double kNoForce = 1e-9;  // [N]
+constexpr double kRise = 0.005;    // [s] window of the rate-hardness
+constexpr double kPulseGain = 0.8, kOffWall = 0.030, kMinEntry = 0.03;  // [1], [s], [m/s] of an entry with a pulse
 constexpr double kDepth = 0.003, kSwing = 0.001;   // [m] mean depth and amplitude of the motion in the wall
 constexpr double kSettle = 1.0, kMinWindow = 2.0;  // [s]
 constexpr double kMinPeriods = 4.0;                // [1] of a window
@@ -89,6 +91,44 @@ haptics::SimulatedRunConfig rig(const ContactCase& contact, double start) {
   return config;
 }
 
+// Adds a force on each entry into the wall, in proportion to the momentum that it must stop:
+// Katherine Kuchenbecker, Jonathan Fiene, Guenter Niemeyer. Improving Contact Realism through Event-Based Haptic Feedback.
+// 2006
+class EventPulse final : public haptics::LeverLoad {
+ public:
+  explicit EventPulse(const ContactCase& contact) : mass_(contact.lever.axis_x.mass), decay_(contact.pulse) {}
+  haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override {
+    const bool inside = in.position.x > in.proxy.x, enters = inside && off_wall_ > kOffWall;
+    const double speed =
+        period > 0.0 ? (in.position.x - position_) / period : 0.0;  // the smooth velocity would be late
+    position_ = in.position.x;
+    off_wall_ = inside ? 0.0 : off_wall_ + period;
+    strength_ *= decay_ > 0.0 ? std::exp(-period / decay_) : 0.0;
+    if (decay_ > 0.0 && enters && speed > kMinEntry) strength_ = kPulseGain * mass_ * speed / decay_;
+    haptics::LeverOutput out;
+    if (speed > 0.0) out.force.x = -strength_;
+    return out;
+  }
+  const char* replay_parameters() const noexcept override { return "event pulse"; }
+
+ private:
+  double mass_, decay_;
+  double position_ = 0.0, off_wall_ = 0.0, strength_ = 0.0;
+};
+
+// Fastest rise within kRise of a force that is sampled every period. [N/s]
+double fastest_rise(const std::vector<double>& force, double period) {
+  const auto at = [&](double sample) {
+    const auto below = static_cast<std::size_t>(std::min(sample, static_cast<double>(force.size() - 1)));
+    const std::size_t above = std::min(below + 1, force.size() - 1);
+    return std::lerp(force[below], force[above], sample - static_cast<double>(below));
+  };
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    fastest = std::max(fastest, (at(static_cast<double>(i) + kRise / period) - force[i]) / kRise);
+  return fastest;
+}
+
 // Measures the lever's first contact with the wall. It lasts from the first force of the motors to the last, also where
 // they act outside the wall, because they hold a force for a period and may be late.
 class FirstContact {
@@ -106,16 +146,18 @@ class FirstContact {
     result.energy += force * (x - x_);
     if (entered_) result.damped += contact_.lever.axis_x.damping * (x - x_) * (x - x_) / run.period();
     if (left_) result.restitution = std::max(0.0, -v / contact_.speed);
-    if (!left_) result.hardness = std::max(result.hardness, (force_ - force) / (run.period() * contact_.speed));
+    if (!left_) rise_.push_back(-force);
     x_ = x;
-    force_ = force;
   }
+
+  double hardness(double period) const { return rise_.empty() ? 0.0 : fastest_rise(rise_, period) / contact_.speed; }
 
  private:
   const ContactCase& contact_;
   double wall_;
   bool entered_ = false, left_ = false, over_ = false;
-  double x_ = 0.0, force_ = 0.0;
+  double x_ = 0.0;
+  std::vector<double> rise_;  // [N] until the lever leaves the wall
 };
 
 double span(const std::vector<double>& sample, std::size_t last) {
@@ -210,7 +252,8 @@ ContactResult run_contact(const ContactCase& contact) {
   CarryingHand hand(contact);
   const double period = haptics::period_s(contact.haptics);
   const double wall = wall_of(contact), start = wall - contact.speed * (kApproach + contact.phase * period);
-  haptics::SimulatedRun run(rig(contact, start), hand);
+  EventPulse pulse(contact);
+  haptics::SimulatedRun run(rig(contact, start), hand, &pulse);
   while (run.time() < kStill) run.step();
   hand.moving = true;
   run.lever().place({run.lever().true_position().x, 0.0}, {contact.speed, 0.0});
@@ -239,6 +282,7 @@ ContactResult run_contact(const ContactCase& contact) {
     return event.kind == haptics::EventKind::stiffness_lowered;
   }));
   const auto samples = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds / period)); };
+  result.hardness = first.hardness(period);
   result.stopped = run.loop().snapshot().fault == haptics::GuardFault::chatter;
   result.peak = *std::max_element(position.begin(), position.end()) - wall;
   result.ripple = span(position, samples(0.2));

@@ -18,7 +18,12 @@ struct ContactCase {
   double phase = 0.0;     // [1] 0 to 1: fraction of a sampling period at which the lever meets the wall
   double place = 0.0;     // [1] 0 to 1: fraction of an encoder count by which the wall is moved
   double duration = 1.2;  // [s] simulated time after the contact
+  double pulse = 0.0;     // [s] decay of a force pulse on each entry into the wall; 0: none, as in the program
 };
+
+// Vibration of a handle at 125 Hz above which fingers feel it [m/s^2]: order of the thresholds in ISO 13091-2. The
+// standard's table was not at hand.
+inline constexpr double kFingerThreshold = 0.2;
 
 struct ContactResult {
   double peak = 0.0;       // [m] deepest penetration
@@ -30,7 +35,8 @@ struct ContactResult {
   double impact = 0.0;  // [J] kinetic energy of handle and hand at the impact
   double restitution = 0.0;  // [1] speed after the contact divided by impact speed; 0: the lever stays in the wall
   double damped = 0.0;       // [J] lower bound of the handle's dissipation in the first contact
-  double hardness = 0.0;     // [N/m] rate-hardness: fastest rise of the motor force in the impact over the impact speed
+  double hardness = 0.0;     // [N/m] rate-hardness: fastest rise of the motor force within 5 ms of the impact, over the
+                             // impact speed; a force that is held counts as straight between its samples
   double tremble = 0.0;      // [m/s^2] rms acceleration in the last 200 ms
   double force_step = 0.0;   // [N] largest change of the commanded force in one cycle
   double force_ripple = 0.0;  // [N] peak-to-peak commanded force in the last 200 ms

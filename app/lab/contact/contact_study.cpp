@@ -119,8 +119,9 @@ std::string contact_text(const ContactQuestion& question, const ContactAnswer& a
   text += fmt::format(
       "p95, most: peak-to-peak motion of the pressed lever in 200 ms, {:g} s after the impact; shown: least mean force "
       "over\n"
-      "mean depth and K; m/s^2: rms acceleration, p95\n\n",
-      campaign.contact.duration);
+      "mean depth and K; m/s^2: rms acceleration, p95; fingers feel about {:g} m/s^2 at 125 Hz (order of ISO "
+      "13091-2)\n\n",
+      campaign.contact.duration, kFingerThreshold);
   const ImpactEnergy& impact = answer.impact;
   text += fmt::format(
       "Impacts of a free lever at 0.1 to 1 m/s, without jitter and plant error: the wall {} {:.0f} % of the worst "
@@ -158,6 +159,7 @@ std::string contact_json(const ContactQuestion& question, const ContactAnswer& a
             {"peak_mm", 1e3 * most(answer.hands, &HandOutcome::peak)},
             {"shown_fraction", min_displayed(answer.hands)},
             {"tremble_m_per_s2", most(answer.hands, &HandOutcome::tremble)},
+            {"tremble_over_finger_threshold", most(answer.hands, &HandOutcome::tremble) / kFingerThreshold},
             {"energy_worst_fraction", answer.impact.worst_fraction},
             {"restitution_worst", answer.impact.restitution},
             {"rate_hardness_n_per_m", answer.impact.hardness},

@@ -47,6 +47,7 @@ AxisIdentification identify_axis(const haptics::Preset& preset, haptics::LeverAx
                                  const haptics::SweepProgress& progress) {
   AxisIdentification found;
   found.nominal = axis == haptics::LeverAxis::x ? preset.lever.axis_x : preset.lever.axis_y;
+  found.nominal_friction = preset.lever.coulomb_friction;
   try {
     found.response = require_complete(sweep_lever(preset, axis, preset_sweep(preset), progress));
     found.fit = haptics::fit_axis(found.response);

@@ -18,6 +18,7 @@ struct AxisIdentification {
   haptics::FrequencyResponse response;
   haptics::AxisFit fit;
   haptics::AxisModel nominal;       // the axis as the device's spec() describes it
+  double nominal_friction = 0.0;    // [N] the simulated lever's dry friction
   haptics::FrequencyPoint literal;  // measured at 1 Hz with the paper's amplitude, even if that exceeds the stroke
 };
 

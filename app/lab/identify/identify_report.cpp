@@ -58,14 +58,16 @@ std::string axis_text(const AxisIdentification& axis) {
     text += fmt::format("  {:<13}{:>12.5g}{:>14.2g}{:>14.5g}{:>10}  {}\n", q.name, found, fit.deviation.*q.value,
                         nominal, off, q.unit);
   }
+  text += fmt::format("  {:<13}{:>12.2g}{:>14.2g}{:>14.5g}{:>10}  N\n", "dry friction", fit.friction,
+                      fit.friction_deviation, axis.nominal_friction, "");
   text += has_spring(fit)
               ? fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", haptics::damping_ratio(fit.model),
                             poles_text(fit.model), haptics::bandwidth(fit.model))
               : "  the axis has no spring, so it has no damping ratio or bandwidth\n";
-  text +=
-      fmt::format("  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points,
-                  axis.response.points.front().frequency, axis.response.points.back().frequency, fit.misfit,
-                  fit.misfit > kMaxPlausibleMisfit ? "; mass, damping and stiffness alone do not explain them" : "");
+  text += fmt::format(
+      "  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points, axis.response.points.front().frequency,
+      axis.response.points.back().frequency, fit.misfit,
+      fit.misfit > kMaxPlausibleMisfit ? "; mass, damping, stiffness and friction alone do not explain them" : "");
   text += fmt::format("  at 1 Hz, one third of the maximum force ({:.1f} N) {} (the lever would move by {:.0f} mm)\n\n",
                       axis.literal.amplitude,
                       axis.literal.end == haptics::PointEnd::hit_stop ? "drives the lever to the stop"
@@ -133,7 +135,7 @@ Json point_json(const haptics::FrequencyPoint& point) {
           {"bounded_by_stroke", point.bounded_by_stroke},
           {"gain_m_per_n", std::abs(point.response)},
           {"phase_deg", std::arg(point.response) * 360.0 / kTau},
-          {"relative_uncertainty", point.deviation},
+          {"relative_uncertainty", std::hypot(point.deviation, point.rounding)},
           {"settled", point.end == haptics::PointEnd::measured}};
 }
 
@@ -144,6 +146,9 @@ Json axis_json(const AxisIdentification& axis) {
                    {"uncertainty", axis.fit.deviation.*q.value},
                    {"device_says", axis.nominal.*q.value}};
   }
+  json["dry_friction_n"] = {{"found", axis.fit.friction},
+                            {"uncertainty", axis.fit.friction_deviation},
+                            {"device_says", axis.nominal_friction}};
   json["misfit"] = axis.fit.misfit;
   json["damping_ratio"] = has_spring(axis.fit) ? Json(haptics::damping_ratio(axis.fit.model)) : Json(nullptr);
   json["poles_hz"] = pole_frequencies(axis.fit.model);

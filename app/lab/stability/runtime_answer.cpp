@@ -1,8 +1,10 @@
 #include "app/lab/stability/runtime_answer.h"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 
+#include "haptics/device/simulated_lever.h"
 #include "haptics/gate/plain_aisle.h"
 
 namespace gearshift::lab {
@@ -25,6 +27,8 @@ haptics::DeviceSpec device_of(const StabilityQuestion& question) {
   haptics::DeviceSpec device;
   device.axis_x = device.axis_y = question.handle;
   device.delay = question.wall.delay;
+  const haptics::SimulatedLeverConfig paper;  // for the encoder
+  device.position_step = paper.yoke.radius * std::numbers::pi / 180.0 / paper.encoder_counts;
   device.simulated = true;
   return device;
 }

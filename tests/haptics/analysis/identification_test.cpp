@@ -160,6 +160,7 @@ FrequencyResponse ideal_response(const AxisModel& axis) {
     FrequencyPoint point;
     point.frequency = frequency;
     point.response = compliance(axis, frequency);
+    point.motion = std::abs(point.response);  // under 1 N
     point.deviation = 0.005;
     point.held = 0.0;
     response.points.push_back(point);
@@ -276,12 +277,127 @@ TEST_CASE("negative controls: an unreported delay, and points with a wrong gain"
   CHECK(fit.misfit > 3.0);
 }
 
-TEST_CASE("dry friction does not fit (8), and the misfit shows it") {
-  SimulatedLeverConfig config = noisy_lever();
-  config.coulomb_friction = 0.2;
-  const AxisFit fit = identify(config, LeverAxis::x);
-  CHECK(fit.misfit > 5.0);
-  CHECK(fit.deviation.damping > 0.01 * kPaperAxisX.damping);
+namespace {
+
+// A sled with dry friction, as another program would simulate it: velocity and friction impulse in steps of 5 us.
+class DrySled final : public HapticDevice {
+ public:
+  DrySled(const AxisModel& axis, double friction) : axis_(axis), friction_(friction) {
+    spec_.max_force = {31.7, 31.7};
+    spec_.workspace = {0.07, 0.07};
+    spec_.axis_x = axis;
+  }
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    for (int i = 0; i < 200; ++i) {
+      const double spring = axis_.stiffness * position_ + axis_.damping * velocity_, old = velocity_;
+      const double free = old + kStep / axis_.mass * (force_ - spring), lost = kStep * friction_ / axis_.mass;
+      velocity_ = std::abs(free) <= lost ? 0.0 : free - std::copysign(lost, free);
+      position_ += 0.5 * kStep * (old + velocity_);
+    }
+    LeverReading reading;
+    reading.sequence = ++sequence_;
+    reading.time_ns = now_ns;
+    reading.position = {position_, 0.0};
+    return reading;
+  }
+  void write(glm::dvec2 force) noexcept override { force_ = force.x; }
+  void release() noexcept override { force_ = 0.0; }
+
+ private:
+  static constexpr double kStep = 5e-6;  // [s]
+  AxisModel axis_;
+  double friction_, position_ = 0.0, velocity_ = 0.0, force_ = 0.0;
+  DeviceSpec spec_;
+  std::uint64_t sequence_ = 0;
+};
+
+// Damping by the textbook, Im(1/G) / w, which takes dry friction for damping; with the weights of a least-squares fit.
+double textbook_damping(const FrequencyResponse& response) {
+  double sum = 0.0, weight = 0.0;
+  for (const FrequencyPoint& point : response.points) {
+    const double w = kTau * point.frequency, speed = w * point.motion;
+    sum += speed * speed * (1.0 / point.response).imag() / w;
+    weight += speed * speed;
+  }
+  return sum / weight;
+}
+
+}  // namespace
+
+TEST_CASE("dry friction of a separately simulated sled is found, and does not count as damping") {
+  for (const AxisModel& axis : {kPaperAxisX, AxisModel{0.06, 0.4, 30.0}, AxisModel{0.2, 3.0, 60.0}}) {
+    for (const double friction : {0.05, 0.11, 0.3}) {
+      DrySled sled(axis, friction);
+      std::int64_t now = 0;
+      const FrequencyResponse response = sweep_frequencies({}, sled, LeverAxis::x, 1e-3, now);
+      const AxisFit fit = fit_axis(response);
+      CAPTURE(axis.mass);
+      CAPTURE(friction);
+      CAPTURE(fit.model.damping);
+      CAPTURE(fit.friction);
+      CHECK(within(fit, axis, 0.01));
+      CHECK(fit.friction == doctest::Approx(friction).epsilon(0.03));
+      if (axis.damping < 0.5 && friction > 0.1) CHECK(textbook_damping(response) > 1.2 * axis.damping);
+    }
+  }
+}
+
+TEST_CASE("a free mass with dry friction: exactly the closed form of its turning") {
+  // A mass under F cos(w t) and friction: the third and higher harmonics of the square wave move its turn by the angle
+  // whose sine is the sum over odd n of -4 f / (pi n) / (n w m v).
+  constexpr double kMass = 0.1, kFriction = 0.1;
+  FrequencyResponse response;
+  response.period = 1e-6;
+  for (const double frequency : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+    const double w = kTau * frequency, speed = 0.3 * std::sqrt(frequency);
+    double sine = 0.0;
+    for (int n = 3; n <= 4001; n += 2) sine -= 4.0 * kFriction / (std::numbers::pi * n) / (n * w * kMass * speed);
+    const std::complex<double> lag(std::sqrt(1.0 - sine * sine), -sine);
+    const std::complex<double> velocity = std::complex<double>(0.0, w);
+    FrequencyPoint point;
+    point.frequency = frequency;
+    point.motion = speed / w;
+    point.deviation = 1e-3;
+    point.held = 0.0;
+    point.response = 1.0 / (-kMass * w * w + velocity * 4.0 * kFriction / (std::numbers::pi * speed) * lag);
+    response.points.push_back(point);
+  }
+  const AxisFit fit = fit_axis(response);
+  CHECK(fit.model.mass == doctest::Approx(kMass).epsilon(1e-3));
+  CHECK(fit.friction == doctest::Approx(kFriction).epsilon(1e-3));
+  CHECK(std::abs(fit.model.damping) < 1e-3);
+  CHECK(std::abs(fit.model.stiffness) < 0.01);
+}
+
+TEST_CASE("friction that holds the lever at nearly every frequency is reported") {
+  DrySled sled(kPaperAxisX, 8.0);
+  std::int64_t now = 0;
+  CHECK_THROWS_AS(fit_axis(sweep_frequencies({}, sled, LeverAxis::x, 1e-3, now)), std::invalid_argument);
+}
+
+TEST_CASE("errors are as large as stated: over 150 fits with and without friction, their z scores have an rms of 1") {
+  std::mt19937_64 engine(7);
+  std::array<double, 4> squares{};
+  for (std::uint64_t i = 1; i <= 150; ++i) {
+    SimulatedLeverConfig config = noisy_lever(i);
+    config.coulomb_friction = 0.05 * static_cast<double>(i % 4);
+    if (i % 2 == 0) config.axis_x = random_plant(engine);
+    const AxisFit fit = identify(config, LeverAxis::x);
+    const auto z = errors_in_deviations(fit, config.axis_x);
+    for (std::size_t k = 0; k < 3; ++k) squares[k] += z[k] * z[k] / 150.0;
+    squares[3] += std::pow((fit.friction - config.coulomb_friction) / fit.friction_deviation, 2.0) / 150.0;
+  }
+  for (const double square : squares) {
+    CHECK(std::sqrt(square) > 0.85);
+    CHECK(std::sqrt(square) < 1.15);
+  }
+  const double all = std::sqrt((squares[0] + squares[1] + squares[2] + squares[3]) / 4.0);
+  MESSAGE("z scores of mass, damping, stiffness, friction, all: "
+          << std::sqrt(squares[0]) << ", " << std::sqrt(squares[1]) << ", " << std::sqrt(squares[2]) << ", "
+          << std::sqrt(squares[3]) << ", " << all);
+  CHECK(all > 0.9);
+  CHECK(all < 1.1);
 }
 
 TEST_CASE("amplitudes: one third of the maximum above about 6.8 Hz, below it the force for 60 % of the stroke") {
@@ -452,8 +568,8 @@ TEST_CASE("random responses: a fit that does not converge is rejected, not retur
   for (int i = 0; i < 50; ++i) {
     FrequencyResponse random = ideal_response(kPaperAxisX);
     for (FrequencyPoint& point : random.points) {
-      const double gain = std::exp(4.0 * uniform() - 2.0);
-      point.response *= std::polar(gain, kTau * uniform());
+      const double gain = std::exp(2.0 * uniform() - 1.0);
+      point.response *= std::polar(gain, 2.0 * uniform() - 1.0);
       point.held = 1.0;
     }
     try {

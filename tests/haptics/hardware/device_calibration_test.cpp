@@ -295,6 +295,8 @@ TEST_CASE("the builder's guide shows a calibration exactly as the program writes
 TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports the limit") {
   DeviceCalibration known = measured({0.001, 0.001, 0.002, 0.0});
   known.select.spring_sign = known.shift.spring_sign = 0;
+  known.select.high = known.shift.low = 1023.0;  // counts of 137 um: coarser ones are limited further
+  known.select.centre = known.shift.centre = 511.0;
   const DeviceSpec spec = spec_of(known, 0.001);
   const Gate gate = paper_gate();
   HapticConfig config;

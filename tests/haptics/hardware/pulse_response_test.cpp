@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -76,6 +77,49 @@ TEST_CASE("with the counts of a coarse stick: delay within 0.1 ms, the rest with
   CHECK(fit.damping == doctest::Approx(31.58).epsilon(0.03));
   CHECK(fit.stiffness == doctest::Approx(155.8).epsilon(0.10));
   CHECK(std::abs(fit.delay - 0.004) < 2e-4);
+}
+
+namespace {
+
+// Pulses on a lever with dry friction, as another program would simulate them: in steps of 2 us.
+std::vector<Pulse> rubbed_pulses(double b, double k, double friction, double gain, double quantum) {
+  constexpr double kStep = 2e-6, kLength = 0.060;
+  std::vector<Pulse> pulses;
+  for (const double magnitude : {0.05, -0.05, 0.05, -0.05}) {
+    Pulse pulse;
+    pulse.steps = {{0.0, magnitude}, {kLength, 0.0}};
+    double x = 0.0, v = 0.0;
+    for (int n = 0; n < 230'000; ++n) {
+      if (n % 500 == 0) pulse.samples.push_back({n * kStep, quantum > 0.0 ? quantum * std::round(x / quantum) : x});
+      const double force = gain * (n * kStep < kLength ? magnitude : 0.0);
+      const double free = v + kStep * (force - b * v - k * x), lost = kStep * gain * friction, old = v;
+      v = std::abs(free) <= lost ? 0.0 : free - std::copysign(lost, free);
+      x += 0.5 * kStep * (old + v);
+    }
+    pulses.push_back(pulse);
+  }
+  return pulses;
+}
+
+}  // namespace
+
+TEST_CASE("dry friction of a separately simulated lever is found, and does not count as damping") {
+  // 20 N at full force on 0.095 kg with 3 N s/m and 14.8 N/m, or on a light handle with little damping.
+  for (const std::pair<double, double>& handle : {std::pair{31.58, 155.8}, {5.0, 400.0}}) {
+    const double damping = handle.first, stiffness = handle.second;
+    for (const double friction : {0.0, 0.11 / 20.0, 0.4 / 20.0}) {
+      for (const double quantum : {0.0, 0.1}) {
+        CAPTURE(damping);
+        CAPTURE(friction);
+        CAPTURE(quantum);
+        const PulseFit fit = fit_pulses(rubbed_pulses(damping, stiffness, friction, 2e6, quantum));
+        CHECK(fit.gain == doctest::Approx(2e6).epsilon(0.01));
+        CHECK(std::abs(fit.damping - damping) < 0.02 * damping + 0.1);
+        CHECK(std::abs(fit.friction - friction) < 0.02 * friction + 1e-4);
+        CHECK(std::abs(fit.delay) < 1e-4);
+      }
+    }
+  }
 }
 
 TEST_CASE("a different motion leaves a large residual; no motion is refused") {

@@ -2,6 +2,7 @@
 #include "haptics/loop/haptic_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <set>
@@ -12,8 +13,11 @@
 #include <doctest/doctest.h>
 
 #include "haptics/analysis/sampled_loop.h"
+#include "haptics/contact/lever_estimator.h"
+#include "haptics/contact/virtual_coupling.h"
 #include "haptics/device/hand.h"
 #include "haptics/gate/gate_feel.h"
+#include "haptics/gate/plain_aisle.h"
 #include "tests/support/gates.h"
 #include "tests/support/whole_campaign.h"
 
@@ -139,6 +143,130 @@ TEST_CASE(
       }
     }
   }
+}
+
+namespace {
+
+constexpr double kFineStep = 74.5e-6, kCoarseStep = 419e-6;  // [m] 28 and 5 counts per degree at 120 mm
+
+AdmittedTuning admitted_on(double step, const HapticConfig& config, int delay = 0) {
+  DeviceSpec spec;
+  spec.delay = delay;
+  spec.position_step = step;
+  return admit_tuning(config, spec, paper_gate());
+}
+
+std::string told(const AdmittedTuning& admitted) {
+  std::string text;
+  for (const TuningLimit& limit : admitted.limits) text += describe(limit) + "\n";
+  return text;
+}
+
+// Change of the damping force [N] in the cycle in which the encoder of a resting lever, 2 mm deep in a wall, counts on.
+// `free`: change of the damping that acts everywhere.
+struct CountForce {
+  double wall = 0.0, free = 0.0;
+};
+CountForce count_force(const HapticConfig& config, const HapticTuning& tuning, double step) {
+  const Gate gate = plain_aisle(0.060, 0.030);
+  const double period = period_s(config);
+  LeverEstimator estimator(config.estimator, period, step);
+  LeverReading reading;
+  reading.position = {0.062, 0.0};
+  LeverMotion motion;
+  const auto read = [&] {
+    ++reading.sequence;
+    reading.time_ns += period_ns(config);
+    motion = estimator.update(reading);
+  };
+  const auto force = [&](double damping) {
+    const Coupling coupling{tuning.wall_stiffness, damping, period, 0, ContactHold::half_sample};
+    const Proxy proxy = place_proxy(gate, {0.060, 0.0});
+    return -contact_force(coupling, gate, open_passage(gate), proxy, motion).force.x;
+  };
+  for (int i = 0; i < kMaxWindow + 1; ++i) read();
+  reading.position.x += step;
+  read();
+  return {force(tuning.wall_damping) - force(0.0),
+          std::max(tuning.aisle_damping, tuning.limit_damping) * motion.smooth_velocity.x};
+}
+
+}  // namespace
+
+TEST_CASE("resolution: one encoder count changes a damping force by at most 3 N, as estimator and coupling make it") {
+  for (const double rate : {250.0, 1000.0, 4000.0}) {
+    for (const double step : {10e-6, kFineStep, kCoarseStep}) {
+      for (const double smoothing : {1e-5, 0.004, 1.0}) {
+        HapticConfig config;
+        config.rate = rate;
+        config.estimator.smoothing = smoothing;
+        config.contact.hold = ContactHold::half_sample;
+        config.tuning.wall_damping = 100.0;
+        config.tuning.aisle_damping = config.tuning.limit_damping = 50.0;
+        CAPTURE(rate);
+        CAPTURE(step);
+        CAPTURE(smoothing);
+        const HapticTuning used = admitted_on(step, config).tuning;
+        const CountForce found = count_force(config, used, step);
+        CHECK(found.wall == doctest::Approx(used.wall_damping * step * rate));  // closed form B q / T
+        CHECK(found.wall <= 3.0 + 1e-9);
+        CHECK(found.free <= 3.0 + 1e-9);
+        CHECK(used.wall_damping == doctest::Approx(std::min({100.0, 0.35 * 0.086 * rate, 3.0 / (step * rate)})));
+      }
+    }
+  }
+  // A longer window divides the step, but is allowed only with allow_unstable.
+  HapticConfig config;
+  config.estimator.window = 8;
+  CHECK(count_force(config, config.tuning, kFineStep).wall == doctest::Approx(10.0 * kFineStep * 1000.0 / 8.0));
+}
+
+TEST_CASE("resolution: 100 N s/m at 4 kHz and an encoder of 5 counts per degree are limited, and the law is named") {
+  HapticConfig fast;
+  fast.rate = 4000.0;
+  CHECK(admitted_on(kFineStep, fast).limits.empty());  // the shipped tuning: B q / T = 2.98 N
+  fast.tuning.wall_damping = 100.0;
+  CHECK(told(admitted_on(kFineStep, fast)) ==
+        "wall_damping_n_s_per_m limited from 100 to 10.0671 (one encoder count q changes the damping force by at most "
+        "3 N if B <= 3 N T / q)\n");
+  for (const double rate : {250.0, 500.0, 1000.0, 2000.0, 4000.0}) {
+    for (const int delay : {0, 1, 3}) {
+      CAPTURE(rate);
+      CAPTURE(delay);
+      HapticConfig config;
+      config.rate = rate;
+      CHECK(told(admitted_on(kFineStep, config, delay)).find("count") == std::string::npos);
+      const AdmittedTuning coarse = admitted_on(kCoarseStep, config, delay);
+      CHECK(coarse.hold == ContactHold::half_sample);
+      CHECK(coarse.tuning.wall_stiffness <= std::min(0.2 * 0.086 * std::pow(rate / (delay + 1), 2.0),
+                                                     0.086 * std::pow(0.1 / (3.0 * kCoarseStep), 2.0)) *
+                                                (1.0 + 1e-12));
+    }
+  }
+  CHECK(told(admitted_on(kCoarseStep, {})).find("the encoder resolves a contact at 0.1 m/s") != std::string::npos);
+}
+
+TEST_CASE("resolution: an observer that is asked for on a coarse encoder is replaced, and the reason is given") {
+  HapticConfig config;
+  config.contact.hold = ContactHold::observer;
+  CHECK(admitted_on(kFineStep, config, 3).hold == ContactHold::observer);
+  const AdmittedTuning coarse = admitted_on(kCoarseStep, config, 3);
+  CHECK(coarse.hold == ContactHold::half_sample);
+  CHECK(told(coarse).find("hold limited from observer to half_sample (with the observer hold, one encoder count q "
+                          "changes the velocity by more than 0.125 m/s)") != std::string::npos);
+}
+
+TEST_CASE("slew: K <= S / (T 1 m/s), so that the force follows a contact at 1 m/s") {
+  HapticConfig config;
+  config.guard.slew = 2.0;
+  CHECK(
+      told(admitted_on(kFineStep, config))
+          .starts_with("wall_stiffness_n_per_m limited from 5000 to 2000 (the slew limit S per cycle follows a contact "
+                       "at 1 m/s only if K <= S / (T 1 m/s))\n"));
+  config.rate = 500.0;
+  CHECK(admitted_on(kFineStep, config).tuning.wall_stiffness == doctest::Approx(1000.0));
+  config.rate = 4000.0;
+  CHECK(admitted_on(kFineStep, config).limits.empty());
 }
 
 TEST_CASE("options that need allow_unstable are refused without it") {

@@ -101,7 +101,7 @@ class RecordedDrive {
     haptics::HapticConfig config;
     config.estimator.smoothing = 0.0005;  // [s] so short that a flipped last bit changes 1 - exp(-period / smoothing)
     config.tuning.speed_limit = 0.15;     // [m/s] low, so that the hand's strokes exceed it
-    config.guard.slew = 2.0;              // [N/cycle] low, so that impacts exceed it
+    config.guard.slew = 5.5;              // [N/cycle] low, so that impacts exceed it, but not the stiffness
     config.guard.ramp_time = 0.2;
     return config;
   }

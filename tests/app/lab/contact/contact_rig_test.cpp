@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -74,6 +75,27 @@ TEST_CASE("on the shipped wall the energy lost is what restitution shows, less w
   CHECK(contacts >= 12);
 }
 
+TEST_CASE("rate-hardness of a spring is K sin(w W) / (w W) in a window W of 5 ms, whatever the period") {
+  constexpr double kStiffness = 400.0, kWindow = 0.005;
+  const double angle = kWindow * std::sqrt(kStiffness / 0.095);
+  for (const double rate : {4000.0, 1000.0, 500.0, 200.0}) {
+    CAPTURE(rate);
+    const double hardness = run_contact(spring_on_mass(rate, 0, kStiffness)).hardness;
+    CHECK(hardness == doctest::Approx(kStiffness * std::sin(angle) / angle).epsilon(0.06));
+  }
+}
+
+TEST_CASE("a pulse on entry makes a wall harder, and adds energy where forces are held long") {
+  ContactCase contact;
+  const ImpactEnergy plain = run_impacts(contact, 5);
+  contact.pulse = 0.006;
+  const ImpactEnergy fast = run_impacts(contact, 5);
+  CHECK(fast.hardness > 1.3 * plain.hardness);
+  CHECK(fast.worst_fraction < 0.0);
+  contact.haptics.rate = 100.0;
+  CHECK(run_impacts(contact, 5).worst_fraction > 0.0);
+}
+
 TEST_CASE("random hands differ in their contacts, and a seed determines them") {
   Campaign campaign;
   campaign.hands = {{"grip", kGripHand}, {"grip again", kGripHand}};
@@ -100,6 +122,73 @@ TEST_CASE("dynamic stiffness of a sampled, held and late spring: K cos(w t) and 
       CHECK(found.stiffness == doctest::Approx(held * 1000.0 * std::cos(omega * late)).epsilon(0.01));
       CHECK(found.damping == doctest::Approx(-held * 1000.0 * std::sin(omega * late) / omega).epsilon(0.03));
     }
+  }
+}
+
+namespace {
+
+struct Quietness {
+  double ripple_counts = 0.0, ripple = 0.0;  // [1] encoder counts; [m]
+  double energy = 0.0;                       // [1] of the worst impact
+  double softened = 0.0;                     // [1]
+};
+Quietness quietness(const ContactCase& contact) {
+  Campaign campaign;
+  campaign.contact = contact;
+  campaign.runs = 12;
+  const std::vector<HandOutcome> outcomes = run_campaign(campaign);
+  const double count = contact.lever.yoke.radius * std::numbers::pi / 180.0 / contact.lever.encoder_counts;
+  const double ripple = worst_ripple(outcomes).ripple_p95;
+  return {ripple / count, ripple, run_impacts(contact, 12).worst_fraction, softened_share(outcomes, campaign.runs)};
+}
+
+struct Demand {
+  const char* name;
+  double rate;      // [Hz]
+  int delay;        // [samples]
+  double damping;   // [N s/m]
+  double counts;    // [counts/deg]
+  double slew;      // [N/cycle]
+  const char* law;  // part of the sentence that the user sees
+};
+ContactCase demanded(const Demand& demand) {
+  ContactCase contact;
+  contact.haptics.rate = demand.rate;
+  contact.haptics.tuning.wall_damping = demand.damping;
+  contact.haptics.guard.slew = demand.slew;
+  contact.lever.delay = demand.delay;
+  contact.lever.encoder_counts = demand.counts;
+  return contact;
+}
+
+}  // namespace
+
+TEST_CASE("what is admitted is quiet: within 0.12 mm or 1.5 counts, no impact gains energy, nothing is softened") {
+  constexpr double kPaper = 2250.0 / 80.0;
+  const Demand demands[] = {{"buzz", 4000.0, 0, 100.0, kPaper, 25.0, "B <= 3 N T / q"},
+                            {"coarse", 1000.0, 0, 10.0, 5.0, 25.0, "K <= m (0.1 m/s / (3 q))^2"},
+                            {"coarse, 2", 1000.0, 2, 10.0, 5.0, 25.0, "K <= m (0.1 m/s / (3 q))^2"},
+                            {"coarse, 8", 1000.0, 8, 10.0, 5.0, 25.0, "K <= 0.2 m / tau^2"},
+                            {"coarse, slow", 500.0, 0, 10.0, 10.0, 25.0, "K <= m (0.1 m/s / (3 q))^2"},
+                            {"coarse, slow, 1", 500.0, 1, 10.0, 10.0, 25.0, "K <= 0.2 m / tau^2"},
+                            {"coarsest", 1000.0, 0, 10.0, 2.5, 25.0, "K <= m (0.1 m/s / (3 q))^2"},
+                            {"slew", 1000.0, 0, 10.0, kPaper, 2.0, "K <= S / (T 1 m/s)"},
+                            {"slew, slow", 500.0, 0, 10.0, kPaper, 4.0, "K <= S / (T 1 m/s)"},
+                            {"slew, slower", 250.0, 0, 10.0, kPaper, 4.0, "K <= S / (T 1 m/s)"}};
+  for (const Demand& demand : demands) {
+    CAPTURE(demand.name);
+    const ContactCase contact = demanded(demand);
+    std::string laws;
+    for (const TuningLimit& limit : admitted_wall(contact).limits) laws += describe(limit) + "; ";
+    CHECK(laws.find(demand.law) != std::string::npos);
+    const Quietness found = quietness(contact);
+    CHECK((found.ripple <= 0.12e-3 || found.ripple_counts <= 1.5));
+    CHECK(found.energy < 0.0);
+    CHECK(found.softened == 0.0);
+    ContactCase unlimited = contact;
+    unlimited.haptics.contact.allow_unstable = true;
+    const Quietness wild = quietness(unlimited);
+    CHECK((wild.ripple > 1.5 * found.ripple || wild.energy > 0.0));
   }
 }
 
