@@ -144,11 +144,16 @@ std::string campaign_json(const lab::CampaignSummary& summary, const std::string
 std::string case_text(const lab::CampaignCase& drawn, const lab::CaseOutcome& outcome) {
   const haptics::HapticConfig& haptics = drawn.haptics;
   std::string text = fmt::format(
-      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {}{:.1f} Hz, delay: {} cycle{}, "
+      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m{}), {} gate, {}{:.1f} Hz, delay: {} "
+      "cycle{}, "
       "period jitter: {:.1f} %, plant error: {:.1f} %, encoder step: {:.1f} um, {}, energy control: {}, wall "
       "stiffness: {:.0f} N/m requested, {:.0f} used, final push: {:.0f} N\n",
       drawn.number, drawn.seed, std::string(lab::kCaseHandNames[static_cast<std::size_t>(drawn.hand)]),
       drawn.lever.hand.mass, drawn.lever.hand.damping, drawn.lever.hand.stiffness,
+      drawn.is_elastic
+          ? fmt::format(", elastic grip of {:.3g} kg, {:.3g} N s/m, {:.4g} N/m", drawn.lever.hand.finger_mass,
+                        drawn.lever.hand.grip_damping, drawn.lever.hand.grip_stiffness)
+          : "",
       drawn.shipped_gate >= 0 ? "shipped" : "random", drawn.has_car ? "with a car, " : "", haptics.rate,
       drawn.lever.delay, drawn.lever.delay == 1 ? "" : "s", 100.0 * drawn.lever.period_jitter,
       100.0 * drawn.lever.model_error, 1e6 * lab::count_of(drawn), haptics::to_string(haptics.contact.hold),

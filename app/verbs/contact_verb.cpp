@@ -88,7 +88,9 @@ std::vector<lab::ContactHand> hands_of(const ContactArguments& arguments) {
   const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(arguments.hand);
   if (!hand)
     throw CLI::ValidationError(fmt::format(
-        "--hand {}: must be bare, light, grip, arm, all, random or M,B,K [kg, N s/m, N/m]", arguments.hand));
+        "--hand {}: must be bare, light, grip, arm, elastic, pinch, all, random or M,B,K [kg, N s/m, N/m], or "
+        "M,B,K,M,B,K for a hand and its elastic grip",
+        arguments.hand));
   return {{arguments.hand, *hand}};
 }
 
@@ -173,9 +175,11 @@ void add_wall_options(CLI::App& verb, ContactArguments& arguments) {
 }
 
 void add_contact_options(CLI::App& verb, ContactArguments& arguments) {
-  verb.add_option("--hand", arguments.hand,
-                  "bare, light, grip, arm, all, random (hands of 0.02 to 2.5 kg, one for each run), or M,B,K [kg, N "
-                  "s/m, N/m]")
+  verb.add_option(
+          "--hand", arguments.hand,
+          "bare, light, grip, arm, elastic, pinch, all, random (hands of 0.02 to 2.5 kg, a third of them elastic, "
+          "one for each run), M,B,K [kg, N s/m, N/m], or M,B,K,M,B,K with the mass of the fingers and the "
+          "grip's damping and stiffness")
       ->capture_default_str();
   verb.add_option("--push", arguments.push,
                   "push of the hand after the impact [N]: one value, or the lowest and highest")

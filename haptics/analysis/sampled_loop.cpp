@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <stdexcept>
 
 #include "haptics/analysis/spectral_radius.h"
 #include "haptics/device/haptic_device.h"
@@ -28,6 +29,7 @@ void check(const AxisModel& handle, const HandImpedance& hand) {
   require_between("hand.mass", hand.mass, 0.0, 1e3, "kg");
   require_between("hand.damping", hand.damping, 0.0, 1e4, "N s/m");
   require_between("hand.stiffness", hand.stiffness, 0.0, 1e6, "N/m");
+  if (hand.is_elastic()) throw std::invalid_argument("hand: stability limits are known only for rigid hands");
 }
 
 // One cycle of the loop in contact, as a linear map of its state. The state holds, in this order: the lever's position

@@ -26,8 +26,8 @@ struct ContactLaw {
 };
 
 // Throws std::invalid_argument with one sentence if a parameter of the law (ranges above) or the period (1e-6 to 1 s)
-// is out of range. The functions below throw for the same reasons, and if handle or hand is out of range: mass 1e-3
-// (hand: 0) to 1e3 kg, damping 0 to 1e4 N s/m, stiffness 0 to 1e6 N/m.
+// is out of range. The functions below throw for the same reasons, and if the hand is elastic, or if handle or hand is out
+// of range: mass 1e-3 (hand: 0) to 1e3 kg, damping 0 to 1e4 N s/m, stiffness 0 to 1e6 N/m.
 void check_contact(const ContactLaw& law, double period);
 
 // Spectral radius of one cycle of handle and hand together, with the hand's target fixed. The contact is stable if the

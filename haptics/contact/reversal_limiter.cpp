@@ -9,15 +9,17 @@ namespace {
 
 constexpr double kReversalCounts = 4.0;     // [counts] motion back that counts as a reversal; exceeds rounding
 constexpr double kMinCount = 20e-6;         // [m] smallest encoder count assumed
-constexpr double kReversalWindow = 0.25;    // [s] six reversals within this time are chatter (10 Hz or faster)
+constexpr double kReversalWindow = 0.35;    // [s] eight reversals within this time are chatter (10 Hz or faster)
 constexpr double kTremorWidth = 0.8e-3;     // [m] widest swing of a hand's tremor, from reversal to reversal
-constexpr double kTremorWindow = 0.2;       // [s] replaces kReversalWindow for narrow swings (12.5 Hz or faster)
+constexpr double kTremorWindow = 0.28;      // [s] replaces kReversalWindow for narrow swings (12.5 Hz or faster)
+constexpr double kNarrowTime = 0.25;        // [s] as long after a narrow swing
 constexpr double kVibrationTimeout = 0.25;  // [s] longest time between two reversals of a vibration (2 Hz or faster)
-constexpr double kDying = 0.5;     // [1] a swing that shrinks to this fraction within six reversals dies away by itself
-constexpr double kCalmTime = 0.5;  // [s] after this time without chatter the lever counts as calm
-constexpr double kSoftening = 0.75;           // [1] each detection of chatter multiplies the stiffness by this factor
-constexpr double kFloorFactor = 0.3;          // [1] stiffness floor as a factor on m / tau^2 (see the header)
-constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be one decaying bounce
+constexpr double kContactWindow = 0.25;     // [s] chatter so long after the lever left a wall is not caused by the wall
+constexpr double kDying = 0.5;              // [1] a swing that shrinks to this fraction dies away by itself
+constexpr double kCalmTime = 0.5;           // [s] after this time without chatter the lever counts as calm
+constexpr double kSoftening = 0.75;         // [1] each detection of chatter multiplies the stiffness by this factor
+constexpr double kFloorFactor = 0.3;        // [1] stiffness floor as a factor on m / tau^2 (see the header)
+constexpr int kMaxBounces = 3;              // up to this many detections at the floor may be one decaying bounce
 constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per detection once a bounce is ruled out
 constexpr double kMinFraction = 1.0 / 64.0;   // [1] fraction of the wanted stiffness at which softening has failed
 constexpr double kMinVibration = 0.02;        // [N] weaker vibrations cannot move a lever by four counts
@@ -48,7 +50,7 @@ bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted
   track_vibration(vibration);
   const bool chatter_x = detect_chatter(axis_[0], position.x, wanted, damping);
   const bool chatter_y = detect_chatter(axis_[1], position.y, wanted, damping);
-  const bool at_wall = time_ - last_contact_ < kReversalWindow;
+  const bool at_wall = time_ - last_contact_ < kContactWindow;
   if (!at_wall || (!chatter_x && !chatter_y)) return false;
   return soften(wanted);
 }
@@ -70,15 +72,23 @@ bool ReversalLimiter::Swing::reverses(double value, double back) noexcept {
 bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted, double damping) noexcept {
   if (!axis.lever.reverses(position, reversal_step_) || is_forced_turn(axis)) return false;
   if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
-  const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
+  const double window = time_ - axis.narrow_time < kNarrowTime ? kTremorWindow : kReversalWindow;
   axis.reversal_widths[axis.count % kReversals] = axis.lever.width;
   axis.reversal_times[axis.count++ % kReversals] = time_;
-  const std::size_t first = axis.count % kReversals, second = (first + 1) % kReversals;  // the oldest of six
-  const double widest = std::max(axis.reversal_widths[first], axis.reversal_widths[second]);
-  const double duration = time_ - axis.reversal_times[first];
+  const double duration = time_ - axis.reversal_times[axis.count % kReversals];
   const double omega = std::numbers::pi * (kReversals - 1) / duration;
   const bool can_sustain = std::hypot(wanted, damping * omega) > damping_ * omega;
-  return axis.count >= kReversals && duration < window && axis.lever.width > kDying * widest && can_sustain;
+  return axis.count >= kReversals && duration < window && can_sustain && !is_dying(axis);
+}
+
+bool ReversalLimiter::is_dying(const Axis& axis) noexcept {
+  double widest = 0.0;
+  for (std::size_t i = 0; i < kReversals; ++i) {
+    const double width = axis.reversal_widths[(axis.count + i) % kReversals];  // from the oldest to the newest
+    if (width < kDying * widest) return true;
+    widest = std::max(widest, width);
+  }
+  return false;
 }
 
 // Computes the widest swing that the vibration can cause. Per period, a force of amplitude F at angular frequency w

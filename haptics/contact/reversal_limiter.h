@@ -4,9 +4,9 @@
 // Softens a wall on which the lever chatters. Chatter is detected from the motion, so effects that the stability model
 // does not contain are covered too.
 //
-// A hand does not reverse a lever six times in a quarter of a second, but a wall that is too stiff for its device does.
-// A hand also trembles, at 8 to 12 Hz (Elble 2003) and by less than a millimetre. So reversals that small count only if
-// six of them fall within a fifth of a second. Each detection removes a quarter of the wall's stiffness, down to
+// A hand does not reverse a lever eight times in 0.35 s (10 Hz), but a wall that is too stiff for its device does. A hand
+// also trembles, at 8 to 12 Hz (Elble 2003) and by less than a millimetre. So reversals that small count only if eight of
+// them fall within 0.28 s (12.5 Hz). Each detection removes a quarter of the wall's stiffness, down to
 // 0.3 m / tau^2, with the device's mass m, tau = (delay + 1) T and the loop's period T. This stiffness is stable if
 // mass and delay are as specified. If the lever still chatters at this stiffness, mass or delay must differ from the
 // specification, so the stiffness is halved until the lever is still. The reduction lasts until the loop is armed again
@@ -16,8 +16,9 @@
 // The load may vibrate the lever on purpose, for example to simulate a stalling engine. The lever then reverses as
 // often as the vibration force and moves no further than this force can move it. Such reversals are ignored: a softer
 // wall would not calm them, and the lever needs its walls. Reversals that are more frequent or wider than the vibration
-// explains count as usual. A swing whose sixth width is less than half of its first or second dies away by itself and does
-// not count either, nor does a swing that no wall of this stiffness and damping can sustain.
+// explains count as usual. A swing does not count either if no wall of this stiffness and damping can sustain it, or if it
+// dies away by itself: if one of the eight widths is less than half of an earlier one. Whatever strikes the lever
+// anew in the meantime, a hand that lets go or hits a wall, does not make a dying swing a lasting one.
 #pragma once
 
 #include <array>
@@ -45,7 +46,7 @@ class ReversalLimiter {
   bool is_exhausted() const noexcept { return is_exhausted_; }      // chatter persists despite softening
 
  private:
-  static constexpr std::size_t kReversals = 6;
+  static constexpr std::size_t kReversals = 8;
 
   // Detects reversals of a value. A reversal counts once the value has moved back from its extreme by `back`.
   struct Swing {
@@ -69,6 +70,7 @@ class ReversalLimiter {
   void track_vibration(glm::dvec2 vibration) noexcept;
   bool is_forced_turn(Axis& axis) noexcept;
   bool detect_chatter(Axis& axis, double position, double wanted, double damping) noexcept;
+  static bool is_dying(const Axis& axis) noexcept;
   bool soften(double wanted) noexcept;
 
   double period_;

@@ -1,7 +1,11 @@
 #include "haptics/device/hand.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+
+#include "haptics/files/toml_text.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -24,16 +28,32 @@ bool parse_comma(std::string_view& text) {
 }  // namespace
 
 std::optional<HandImpedance> parse_hand(std::string_view text) {
-  for (const auto& [name, hand] : kNamedHands) {
+  for (const auto& [name, hand] : kNamedHands)
     if (text == name) return hand;
-  }
-  const std::optional<double> mass = parse_number(text);
-  if (!mass || !parse_comma(text)) return std::nullopt;
-  const std::optional<double> damping = parse_number(text);
-  if (!damping || !parse_comma(text)) return std::nullopt;
-  const std::optional<double> stiffness = parse_number(text);
-  if (!stiffness || !text.empty()) return std::nullopt;
-  return HandImpedance{*mass, *damping, *stiffness};
+  for (const auto& [name, hand] : kElasticHands)
+    if (text == name) return hand;
+  std::array<double, 6> values{};
+  std::size_t count = 0;
+  do {
+    const std::optional<double> value = count < values.size() ? parse_number(text) : std::nullopt;
+    if (!value) return std::nullopt;
+    values[count++] = *value;
+  } while (parse_comma(text));
+  const HandImpedance hand{values[0], values[1], values[2], values[3], values[4], values[5]};
+  const bool is_complete = count == 3 || (count == 6 && hand.is_elastic() && hand.mass >= kMinElasticMass);
+  return text.empty() && is_complete ? std::optional(hand) : std::nullopt;
+}
+
+std::string hand_text(const HandImpedance& hand) {
+  for (const auto& [name, named] : kNamedHands)
+    if (named == hand) return std::string(name);
+  for (const auto& [name, named] : kElasticHands)
+    if (named == hand) return std::string(name);
+  std::string text = toml_number(hand.mass) + ',' + toml_number(hand.damping) + ',' + toml_number(hand.stiffness);
+  if (hand.is_elastic())
+    text += ',' + toml_number(hand.finger_mass) + ',' + toml_number(hand.grip_damping) + ',' +
+            toml_number(hand.grip_stiffness);
+  return text;
 }
 
 }  // namespace gearshift::haptics

@@ -20,6 +20,8 @@ namespace {
 constexpr double kMaxPush = 1e4;   // [N]
 constexpr double kMaxSpeed = 1e2;  // [m/s]
 
+constexpr double kTurnRate = 0.1;  // [1] longest turn of an elastic hand, times the rate at which its grip moves
+
 constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // makes random_() differ from the sensor noise
 
 const SimulatedLeverConfig& validated(const SimulatedLeverConfig& config, std::int64_t period_ns) {
@@ -27,6 +29,8 @@ const SimulatedLeverConfig& validated(const SimulatedLeverConfig& config, std::i
   check_parameters(config.hand, "lever.hand");
   if (config.encoder_counts != 0.0)
     require_between("lever.encoder_counts_per_deg other than 0", config.encoder_counts, 1.0, 1e6);
+  if (config.hand.is_elastic())
+    require_between("lever.hand.mass_kg of an elastic hand", config.hand.mass, kMinElasticMass, 1e3);
   require_between("period_ns", static_cast<double>(period_ns), 1.0, 1e9);
   return config;
 }
@@ -49,6 +53,19 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
   return spec;
 }
 
+// The part of the hand that moves with the handle.
+HandImpedance attached_part(const HandImpedance& hand) {
+  if (!hand.is_elastic()) return hand;
+  return {hand.finger_mass, hand.grip_damping, hand.grip_stiffness};
+}
+
+// Number of turns per period. Lever and hand swing against each other with the mass 1 / (1/m + 1/m_h).
+double turn_count(const AxisModel& lever, const AxisModel& hand, const HandImpedance& grip, double period) {
+  const double inverse_mass = 1.0 / lever.mass + 1.0 / hand.mass;
+  const double rate = std::sqrt(grip.grip_stiffness * inverse_mass) + grip.grip_damping * inverse_mass;
+  return std::ceil(period * rate / kTurnRate);
+}
+
 }  // namespace
 
 // A random factor, uniformly distributed between 1 - fraction and 1 + fraction; exactly 1 if fraction is 0.
@@ -66,14 +83,26 @@ AxisModel SimulatedLever::true_model(const AxisModel& nominal) {
 
 SimulatedLever::Axis SimulatedLever::make_axis(const AxisModel& nominal, double limit) {
   const AxisModel handle = true_model(nominal);
-  const HandImpedance& hand = config_.hand;
-  const AxisModel model{handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness};
+  const AxisModel model{handle.mass + attached_.mass, handle.damping + attached_.damping,
+                        handle.stiffness + attached_.stiffness};
   const AxisLimits limits{config_.yoke.radius * limit, config_.coulomb_friction};
-  return {model, AxisStepper(model, period_), limits, Actuator(config_.actuator), JointEncoder(config_.encoder_counts)};
+  const HandImpedance& hand = config_.hand;
+  const AxisModel hand_model{std::max(hand.mass, kMinElasticMass), hand.damping + hand.grip_damping,
+                             hand.stiffness + hand.grip_stiffness};
+  const double turn = hand.is_elastic() ? period_ / turn_count(model, hand_model, hand, period_) : period_;
+  return {model,
+          AxisStepper(model, turn),
+          limits,
+          Actuator(config_.actuator),
+          JointEncoder(config_.encoder_counts),
+          hand_model,
+          AxisStepper(hand_model, 0.5 * turn),
+          turn};
 }
 
 SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver)
     : config_(validated(config, period_ns)),
+      attached_(attached_part(config.hand)),
       driver_(driver),
       spec_(make_spec(config)),
       period_ns_(static_cast<std::uint64_t>(period_ns)),
@@ -225,14 +254,37 @@ glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) con
   return arc_force(pose, walls.stiffness_fraction * config_.device_wall_stiffness * back);
 }
 
-// Moves the axis for `time` [s]. Away from the stops and without dry friction, one step of the linear model is the
-// exact solution.
+// Force of the hand on the lever at x = 0. [N]
+double SimulatedLever::lever_drive(const Axis& axis) const noexcept {
+  if (!config_.hand.is_elastic()) return axis.hand_drive;
+  return attached_.stiffness * axis.hand.position + attached_.damping * axis.hand.velocity;
+}
+
+// Moves the axis for `time` [s].
 void SimulatedLever::move(Axis& axis, double time) const noexcept {
-  const double force = axis.hand_drive + axis.actuator_force;
+  if (!config_.hand.is_elastic()) {
+    if (time == axis.turn) return move_lever(axis, axis.hand_drive + axis.actuator_force, axis.stepper, time);
+    return move_lever(axis, axis.hand_drive + axis.actuator_force, AxisStepper(axis.model, time), time);
+  }
+  const double turns = std::ceil(time / axis.turn * (1.0 - 1e-9)), turn = time / turns;
+  const bool is_nominal = time == period_;
+  const AxisStepper lever = is_nominal ? axis.stepper : AxisStepper(axis.model, turn);
+  const AxisStepper hand = is_nominal ? axis.hand_stepper : AxisStepper(axis.hand_model, 0.5 * turn);
+  const auto move_hand = [&] {
+    axis.hand = hand.step(axis.hand, axis.hand_drive + attached_.stiffness * axis.state.position +
+                                         attached_.damping * axis.state.velocity);
+  };
+  for (double n = 0.0; n < turns; n += 1.0) {
+    move_hand();
+    move_lever(axis, lever_drive(axis) + axis.actuator_force, lever, turn);
+    move_hand();
+  }
+}
+
+// Away from the stops and without dry friction, one step of the linear model is the exact solution.
+void SimulatedLever::move_lever(Axis& axis, double force, const AxisStepper& stepper, double time) const noexcept {
   if (axis.limits.coulomb_friction == 0.0) {
-    const bool on_time = time == period_;
-    const AxisState next =
-        on_time ? axis.stepper.step(axis.state, force) : advance(axis.model, axis.state, force, time);
+    const AxisState next = stepper.step(axis.state, force);
     const double speed = std::max(std::abs(axis.state.velocity), std::abs(next.velocity));
     const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * time;
     if (farthest < axis.limits.stop) {
@@ -261,16 +313,16 @@ void SimulatedLever::sample() noexcept {
 }
 
 // Force of the hand on the lever: f_h = m a + b v + k x - f, with the handle's mass m, damping b and stiffness k and
-// the actuator force f. The hand's own values are m_h, b_h and k_h, and `drive` is Axis::hand_drive. The axis moves by
-// (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. The second form also
-// holds at a stop and under dry friction.
+// the actuator force f. The part of the hand that moves with it has m_h, b_h and k_h, and `drive` is lever_drive(). The
+// axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. The second
+// form also holds at a stop and under dry friction.
 double SimulatedLever::hand_force(const Axis& axis) const noexcept {
-  const HandImpedance& hand = config_.hand;
-  const double massless = axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
-  if (hand.mass == 0.0) return massless;
-  const double force = axis.hand_drive + axis.actuator_force;
+  const double drive = lever_drive(axis);
+  const double massless = drive - attached_.stiffness * axis.state.position - attached_.damping * axis.state.velocity;
+  if (attached_.mass == 0.0) return massless;
+  const double force = drive + axis.actuator_force;
   const double inertial = inertial_force(axis.model, axis.limits, axis.state, force);
-  return massless - hand.mass / axis.model.mass * inertial;
+  return massless - attached_.mass / axis.model.mass * inertial;
 }
 
 double SimulatedLever::measure(double force) noexcept {
@@ -306,8 +358,8 @@ void SimulatedLever::place(glm::dvec2 position, glm::dvec2 velocity) noexcept {
   const PlanePose pose = reachable_pose(position);
   const glm::dvec2 arc = arc_position(config_.yoke, {std::atan(pose.a), std::atan(pose.b)});
   const glm::dvec2 speed = arc_velocity(pose, velocity);
-  x_.state = {arc.x, speed.x};
-  y_.state = {arc.y, speed.y};
+  x_.state = x_.hand = {arc.x, speed.x};
+  y_.state = y_.hand = {arc.y, speed.y};
   x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand's target rests at the new lever position
   y_.hand_drive = config_.hand.stiffness * arc.y;
   update_pose();

@@ -112,14 +112,20 @@ class SimulatedLever final : public HapticDevice {
   void place(glm::dvec2 position, glm::dvec2 velocity = glm::dvec2(0.0)) noexcept;
 
  private:
-  // One joint along its arc. Handle and hand together form one axis, which is stepped exactly.
+  // One joint along its arc. The handle and what moves with it form one axis, which is stepped exactly. The mass of an
+  // elastic hand is a second one: each is stepped exactly while the other stands still, in turns of `turn` seconds (G.
+  // Strang. On the Construction and Comparison of Difference Schemes. 1968), so the error falls with the turn's square.
   struct Axis {
     AxisModel model;
-    AxisStepper stepper;
+    AxisStepper stepper;  // for a whole turn
     AxisLimits limits;
     Actuator actuator;
     JointEncoder encoder;
+    AxisModel hand_model;      // an elastic hand's mass
+    AxisStepper hand_stepper;  // for half a turn
+    double turn;               // [s]
     AxisState state{};
+    AxisState hand{};
     double hand_drive = 0.0;      // [N] hand force at x = 0: push + stiffness * target + damping * target velocity
     double actuator_force = 0.0;  // [N] force delivered during the last cycle
   };
@@ -148,6 +154,8 @@ class SimulatedLever final : public HapticDevice {
   bool may_reach_walls(const LeverWalls& walls) const noexcept;
   glm::dvec2 wall_force(const LeverWalls& walls, double ahead) const noexcept;
   void move(Axis& axis, double time) const noexcept;
+  void move_lever(Axis& axis, double force, const AxisStepper& stepper, double time) const noexcept;
+  double lever_drive(const Axis& axis) const noexcept;
   void update_pose() noexcept;
   void sample() noexcept;
   ArcTarget arc_target(const HandTarget& target) const noexcept;
@@ -156,6 +164,7 @@ class SimulatedLever final : public HapticDevice {
   double measure(double force) noexcept;
 
   SimulatedLeverConfig config_;
+  HandImpedance attached_;  // what moves with the handle: the hand, or the fingers and the grip of an elastic one
   HandDriver& driver_;
   DeviceSpec spec_;
   std::uint64_t period_ns_;

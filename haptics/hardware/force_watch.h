@@ -9,10 +9,13 @@
 // (g < 0) shows with every hand; a silent one only against the heaviest hand assumed here. Half the strength cannot be
 // noticed, because a hand heavier by m + M looks the same, nor can twice, unless the hand is lighter than the handle.
 //
-// In hands that it was not tuned with (force_watch_test.cpp), of 144 reversed sticks 133 were off within 20 s, 101 of them
-// by this watch, but of 144 silent ones only 13: a hand that rests gives no evidence, and one that is stronger than the
-// stick moves it alike with and without forces. So PidLever also asks whether a full force was felt: in 128 of the 144.
-// There were 5 false alarms in 12 hours: a heavy hand that strikes a wall behind a springy grip is none of those assumed.
+// Some hands are a heavy mass behind a springy grip. Without them, an arm that struck a wall was explained best by a stick
+// whose springs act reversed: 6 false alarms in 12 hours.
+//
+// In hands that it was not tuned with (force_watch_test.cpp), of 144 reversed sticks 135 were off within 20 s, 115 of them
+// by this watch, but of 144 silent ones only 14: a hand that rests gives no evidence, and one that is stronger than the
+// stick moves it nearly alike with and without forces. So PidLever also asks whether a full force was felt: in 89 of the
+// 144, and of a healthy stick twice in three hours of hands that push until they overpower it.
 //
 // This work is based on:
 // D. T. Magill. Optimal Adaptive Estimation of Sampled Stochastic Processes. 1965
@@ -54,18 +57,21 @@ class ForceWatch {
   // The best explained fault. `is_doubtful`: the stick says that it makes no forces. That may not be true, and counts
   // only until its forces were seen.
   ForceFault fault(bool is_doubtful = false) const noexcept;
+  // True if it is likely that no motor acts, both having the same power supply: too little for fault().
+  bool may_be_silent() const noexcept;
   // [nat] log likelihood of a fault, less that of a stick without fault.
   double evidence(int axis, ForceFault fault) const noexcept;
 
  private:
-  static constexpr std::size_t kHands = 13, kExplanations = 4;
+  static constexpr std::size_t kHands = 19, kExplanations = 4;
+  static constexpr std::size_t kStates = 5, kRigidStates = 3;
   struct Estimate {
     double position = 0.0, speed = 0.0, hand = 0.0;  // [m] [m/s] [N]
+    double body = 0.0, body_speed = 0.0;             // [m] [m/s] of an elastic hand's mass
     double likelihood = 0.0;                         // [nat] logarithm, fading
   };
-  struct Covariance {  // of an estimate, the same for all explanations with the same hand
-    double xx = 0.0, xv = 0.0, xh = 0.0, vv = 0.0, vh = 0.0, hh = 0.0;
-  };
+  // Of an estimate's first five values, the same for all explanations with the same hand.
+  using Covariance = std::array<std::array<double, kStates>, kStates>;
   struct Axis {
     AxisModel handle;
     double reach = 0.0;      // [m]
@@ -78,6 +84,7 @@ class ForceWatch {
     std::int64_t time_ns = 0;
   };
 
+  double likelihood(int axis, std::size_t stick) const noexcept;  // [nat] with the best of all hands
   static void place(Axis& axis, double position) noexcept;
   static void predict(Axis& axis, const AxisForces& forces, double seconds) noexcept;
   void correct(Axis& axis, double position, double speed, double seconds) const noexcept;
@@ -89,9 +96,10 @@ class ForceWatch {
   std::array<Output, 128> outputs_{};  // a ring
   std::size_t newest_ = 0;
   bool has_reading_ = false;
-  bool drives_ = false;       // its forces were seen
-  glm::dvec2 position_{0.0};  // newest
-  std::int64_t time_ns_ = 0;  // of the newest reading
+  bool drives_ = false;          // its forces were seen
+  std::int64_t driving_ns_ = 0;  // [ns] when they were seen last
+  glm::dvec2 position_{0.0};     // newest
+  std::int64_t time_ns_ = 0;     // of the newest reading
 };
 
 }  // namespace gearshift::haptics

@@ -16,6 +16,7 @@ namespace {
 constexpr double kNearlyFull = 0.9;    // [1] of the full force
 constexpr double kFarAgainst = 0.006;  // [m]
 constexpr double kStrong = 10.0;       // [N] a hand often overpowers a weaker stick
+constexpr int kDoubtfulPushes = 2;     // in a row
 
 std::size_t index_of(const LeverReport& report, int usage) {
   for (std::size_t i = 0; i < report.axes.size(); ++i) {
@@ -172,14 +173,21 @@ glm::dvec2 PidLever::constant_force(const StickState& state) const noexcept {
   return coupling_ * glm::dvec2(force(axis_[0]), force(axis_[1]));
 }
 
-// A stick without power may not say so, and a hand that is stronger than the stick moves the lever in the same way, so this
-// only asks whether the force was felt.
+// A stick without power may not say so, and a hand that is stronger than the stick moves the lever in nearly the same way,
+// so this only asks whether the force was felt: if the watch finds it likely in two pushes in a row that no motor acts.
 void PidLever::watch_full_force(glm::dvec2 moved, glm::dvec2 force) noexcept {
   for (int i = 0; i < 2; ++i) {
     const bool is_full = spec_.max_force[i] >= kStrong && std::abs(force[i]) > kNearlyFull * spec_.max_force[i];
-    if (!is_full) against_[i] = 0.0;
     if (is_full && moved[i] * force[i] < 0.0) against_[i] += std::abs(moved[i]);
-    if (against_[i] > kFarAgainst) driver_.report_once(StickProblem::overpowered, std::lround(1e3 * against_[i]));
+    const bool is_far = against_[i] > kFarAgainst;
+    if (is_full && is_far)
+      is_doubtful_[static_cast<std::size_t>(i)] = is_doubtful_[static_cast<std::size_t>(i)] || watch_.may_be_silent();
+    if (is_full) continue;
+    if (is_far) doubtful_pushes_ = is_doubtful_[static_cast<std::size_t>(i)] ? doubtful_pushes_ + 1 : 0;
+    if (is_far && (doubtful_pushes_ >= kDoubtfulPushes || !calibration_.has_timing()))
+      driver_.report_once(StickProblem::overpowered, std::lround(1e3 * against_[i]));
+    against_[i] = 0.0;
+    is_doubtful_[static_cast<std::size_t>(i)] = false;
   }
 }
 

@@ -91,10 +91,12 @@ class PidLever final : public HapticDevice {
   glm::dmat2 coupling_, uncoupling_;  // force_coupling() and its inverse
   StickCommand command_;
   LeverWalls walls_;
-  glm::dvec2 position_{0.0};  // [m] newest
-  glm::dvec2 against_{0.0};   // [m] that the lever moved against nearly the full force, without a pause
-  std::uint64_t session_;     // session of the last state
-  bool halted_ = false;       // the session changed in this cycle
+  glm::dvec2 position_{0.0};           // [m] newest
+  glm::dvec2 against_{0.0};            // [m] that the lever moved against nearly the full force, without a pause
+  std::array<bool, 2> is_doubtful_{};  // in this push, the motors may make no force
+  int doubtful_pushes_ = 0;            // in a row
+  std::uint64_t session_;              // session of the last state
+  bool halted_ = false;                // the session changed in this cycle
   ForceWatch watch_;
   StopButton own_stop_;
   StopButton& stop_;

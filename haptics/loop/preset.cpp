@@ -55,14 +55,10 @@ void read_lever_text(const TomlTable& table, SimulatedLeverConfig& lever) {
   if (!table.has("hand")) return;
   const std::optional<HandImpedance> hand = parse_hand(table.text("hand"));
   if (!hand || !is_in_range(*hand))
-    table.fail("hand", "must be bare, light, grip, arm or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 N/m");
+    table.fail(
+        "hand",
+        "must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 N/m");
   lever.hand = *hand;
-}
-
-std::string hand_text(const HandImpedance& hand) {
-  for (const auto& [name, named] : kNamedHands)
-    if (named == hand) return std::string(name);
-  return toml_number(hand.mass) + ',' + toml_number(hand.damping) + ',' + toml_number(hand.stiffness);
 }
 
 }  // namespace

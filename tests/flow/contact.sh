@@ -54,7 +54,7 @@ check "is whole" grep -q "</svg>" wall.svg
 refuse 2 "--push" --push -1
 refuse 2 "--wall-stiffness: \"0\" is not a number from 1 to 20000" --wall-stiffness 0
 refuse 2 "--delay: \"9\" is not a whole number from 0 to 8" --delay 9
-refuse 2 "--hand fist: must be bare, light, grip, arm, all, random or M,B,K" --hand fist
+refuse 2 "--hand fist: must be bare, light, grip, arm, elastic, pinch, all, random or M,B,K" --hand fist
 refuse 2 "--rate" --rate 50
 refuse 1 "preset" --preset no_such_preset
 refuse 1 "no stick that matches \"rhino\" is plugged in" --stick rhino

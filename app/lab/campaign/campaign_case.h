@@ -53,6 +53,7 @@ struct CampaignCase {
   int shifts = kCaseShifts;  // number of shifts that the hand tries; 0 without a hand
   bool is_wide = false;      // gate, rate, delay, plant error and tuning are drawn from their whole ranges
   bool has_car = false;      // the load is random_car(seed)
+  bool is_elastic = false;   // the hand has an elastic grip
 };
 
 // Cases 4, 11, 18 and so on are wide (see CampaignCase::is_wide).

@@ -95,8 +95,11 @@ bool is_active(haptics::GuardState state) noexcept {
          state == haptics::GuardState::running;
 }
 
-// Decay rate of an oscillation that is damped by handle and hand. [1/s]
+// Decay rate of an oscillation that is damped by handle and hand. The two masses of an elastic hand may swing one without
+// the other, and the grip's damper only adds to their damping. [1/s]
 double passive_decay(haptics::AxisModel handle, const haptics::HandImpedance& hand) noexcept {
+  if (hand.is_elastic())
+    return 0.5 * std::min(handle.damping / (handle.mass + hand.finger_mass), hand.damping / hand.mass);
   return 0.5 * (handle.damping + hand.damping) / (handle.mass + hand.mass);
 }
 

@@ -60,6 +60,7 @@ void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseO
   const bool is_bounded = drawn.haptics.contact.energy_control == haptics::EnergyControl::energy_bounding;
   const bool is_beyond = drawn.lever.model_error > 0.05 || drawn.lever.period_jitter > 0.1;
   add("hand", std::string(kCaseHandNames[static_cast<std::size_t>(drawn.hand)]));
+  if (drawn.hand != CaseHand::bare) add("grip", drawn.is_elastic ? "elastic" : "rigid");
   add("gate", drawn.shipped_gate >= 0 ? "shipped" : "random");
   add("rate", band_name(drawn.haptics.rate));
   add("delay", drawn.lever.delay < kLongDelay ? std::to_string(drawn.lever.delay) : "4 to 8");

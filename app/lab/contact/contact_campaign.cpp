@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "app/lab/bench/rows/bench.h"
 #include "haptics/files/number_text.h"
@@ -11,6 +12,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr std::uint64_t kSeedsPerHand = 1'000'000;
+constexpr std::uint64_t kGripSeed = 0x2545f4914f6cdd1d;  // makes the grips' draws independent of the hands'
 
 double unit(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
@@ -39,11 +41,20 @@ ContactCase drawn(const Campaign& campaign, const haptics::HandImpedance& hand, 
 std::vector<ContactHand> named_hands() {
   std::vector<ContactHand> hands;
   for (const haptics::NamedHand& named : haptics::kNamedHands) hands.push_back({std::string(named.name), named.hand});
+  for (const haptics::NamedHand& named : haptics::kElasticHands) hands.push_back({std::string(named.name), named.hand});
   return hands;
 }
 
+haptics::HandImpedance with_grip(haptics::HandImpedance hand, const std::array<double, 3>& drawn) {
+  constexpr double kHandle = 0.1;  // [kg]
+  hand.finger_mass = 0.005 * std::pow(10.0, drawn[0]);
+  hand.grip_stiffness = 1000.0 * std::pow(8.0, drawn[1]);
+  hand.grip_damping = 2.0 * (0.1 + 0.7 * drawn[2]) * std::sqrt(hand.grip_stiffness * kHandle);
+  return hand;
+}
+
 std::vector<ContactHand> random_hands(int count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(seed), grip(seed ^ kGripSeed);
   const auto even_in_decades = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
   std::vector<ContactHand> hands;
   for (int i = 0; i < count; ++i) {
@@ -51,9 +62,14 @@ std::vector<ContactHand> random_hands(int count, std::uint64_t seed) {
     hand.mass = even_in_decades(0.02, 2.5);
     hand.stiffness = even_in_decades(100.0, 1500.0);
     hand.damping = 2.0 * between(0.1, 0.8, random) * std::sqrt(hand.stiffness * hand.mass);
-    hands.push_back({haptics::number_text(hand.mass, 3) + " kg, " + haptics::number_text(hand.damping, 1) + " N s/m, " +
-                         haptics::number_text(hand.stiffness, 0) + " N/m",
-                     hand});
+    std::string name = haptics::number_text(hand.mass, 3) + " kg, " + haptics::number_text(hand.damping, 1) +
+                       " N s/m, " + haptics::number_text(hand.stiffness, 0) + " N/m";
+    if (i % 3 == 2) {
+      hand = with_grip(hand, {unit(grip), unit(grip), unit(grip)});
+      name +=
+          ", grip " + haptics::number_text(hand.grip_damping, 1) + ", " + haptics::number_text(hand.grip_stiffness, 0);
+    }
+    hands.push_back({std::move(name), hand});
   }
   return hands;
 }

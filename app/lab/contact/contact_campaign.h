@@ -2,6 +2,7 @@
 // results.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,8 +18,12 @@ struct ContactHand {
   std::string name;
   haptics::HandImpedance hand;
 };
-std::vector<ContactHand> named_hands();  // the four of haptics::kNamedHands
-// Hands of 0.02 to 2.5 kg, stiffness 100 to 1500 N/m and damping ratio 0.1 to 0.8, which a seed determines.
+std::vector<ContactHand> named_hands();  // those of haptics::kNamedHands and haptics::kElasticHands
+// The hand with an elastic grip, whose three values are drawn: fingers of 5 to 50 g, 1000 to 8000 N/m, and a damping ratio
+// of 0.1 to 0.8 for a handle of 0.1 kg. `drawn`: from 0 to 1.
+haptics::HandImpedance with_grip(haptics::HandImpedance hand, const std::array<double, 3>& drawn);
+// Hands of 0.02 to 2.5 kg, stiffness 100 to 1500 N/m and damping ratio 0.1 to 0.8, which a seed determines. Every third is
+// elastic.
 std::vector<ContactHand> random_hands(int count, std::uint64_t seed);
 
 struct Campaign {

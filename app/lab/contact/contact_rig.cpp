@@ -259,7 +259,8 @@ ContactResult run_contact(const ContactCase& contact) {
   run.lever().place({run.lever().true_position().x, 0.0}, {contact.speed, 0.0});
 
   ContactResult result;
-  result.impact = 0.5 * (contact.lever.axis_x.mass + contact.lever.hand.mass) * contact.speed * contact.speed;
+  result.impact = 0.5 * (contact.lever.axis_x.mass + contact.lever.hand.mass + contact.lever.hand.finger_mass) *
+                  contact.speed * contact.speed;
   FirstContact first(contact);
   haptics::EventDetector detector;
   std::vector<haptics::HapticEvent> events;

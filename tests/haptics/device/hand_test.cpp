@@ -153,12 +153,18 @@ TEST_CASE("a person's hand refuses a period or a smoothing out of range") {
                        std::invalid_argument);
 }
 
-TEST_CASE("a hand is a name or three numbers, and nothing else") {
+TEST_CASE("a hand is a name, three numbers, or six for an elastic hand, and nothing else") {
   CHECK(parse_hand("grip")->stiffness == 500.0);
+  CHECK(parse_hand("pinch") == kPinchHand);
+  CHECK(parse_hand("1,2,3,4,5,6") == HandImpedance{1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
+  for (const HandImpedance& hand :
+       {kGripHand, kElasticHand, HandImpedance{0.3, 0.1, 7.0}, HandImpedance{1, 2, 3, 0, 0, 6}})
+    CHECK(parse_hand(hand_text(hand)) == hand);
   CHECK(parse_hand("arm")->mass == 0.8);
   CHECK(parse_hand(".15,10,5e2")->stiffness == 500.0);
-  for (const char* text : {"", "Grip", "grip ", "1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "-1,2,3", "nan,1,1", "1,inf,1",
-                           "1,,1", "1,2,1e999", ",,", "0x1,1,1"}) {
+  for (const char* text :
+       {"", "Grip", "grip ", "1,2", "1,2,3,4", "1,2,3,4,5", "1,2,3,4,5,0", "0,2,3,4,5,6", "1,2,3,4,5,6,7", "1,2,3 ",
+        "1;2;3", "-1,2,3", "nan,1,1", "1,inf,1", "1,,1", "1,2,1e999", ",,", "0x1,1,1"}) {
     CAPTURE(text);
     CHECK_FALSE(parse_hand(text).has_value());
   }

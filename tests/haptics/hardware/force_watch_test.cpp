@@ -47,7 +47,7 @@ bool is_watch(const std::string& problem) {
 
 // The watch was tuned with RandomHand and seeds below 100. ReflexHand and its seeds are an independent sample: after a
 // change because of them, draw other ones.
-constexpr unsigned kFirstIndependentSeed = 3'000'000;
+constexpr unsigned kFirstIndependentSeed = 4'000'000;
 
 // A stick in a random hand.
 struct RandomDrive {
@@ -192,8 +192,8 @@ TEST_CASE("no false alarm when a hand presses into a wall, slowly or fast") {
           hand.target = hand_at({0.012, turn < 0.040 ? turn : 0.080 - turn});
           run.cycle();
         }
-        // A hand that is stronger than the stick is only asked whether it felt the force.
-        for (const std::string& problem : run.problems()) CHECK_FALSE(is_watch(problem));
+        // Not even a question: the watch sees the forces act, although the hand is stronger.
+        CHECK(run.problems().empty());
         CHECK(run.stick.actuators_on());
       }
     }
@@ -201,28 +201,37 @@ TEST_CASE("no false alarm when a hand presses into a wall, slowly or fast") {
 }
 
 TEST_CASE(
-    "random hands that reach, hold, push, strike and let go: few false alarms, or none with hands of the tuning") {
-  std::string table = "hands | readings every ms | hours | alarms\n";
+    "random hands that reach, hold, push, strike and let go: no false alarm, and hardly a question to one that "
+    "overpowers") {
+  std::string table = "hands | readings every ms | hours | alarms | questions\n";
   for (const unsigned first : {0U, kFirstIndependentSeed}) {
     for (const double interval : kIntervals) {
       double hours = 0.0;
-      int alarms = 0;
+      int alarms = 0, questions = 0;
+      const auto count = [&](const std::vector<std::string>& problems) {
+        for (const std::string& problem : problems) {
+          alarms += is_watch(problem) ? 1 : 0;
+          questions += asks_for_power(problem) ? 1 : 0;
+        }
+      };
       for (unsigned seed = first; seed < first + campaign_size(60, 1); ++seed) {
         for (const StickFamily family : kStickFamilies) {
           RandomDrive drive(family, interval, seed);
           while (drive.run.time() < 60.0) {
             drive.run.cycle();
             if (!drive.is_off()) continue;
-            for (const std::string& problem : drive.run.problems()) alarms += is_watch(problem) ? 1 : 0;
+            count(drive.run.problems());
             drive.run.loop.arm();
             drive.run.cycle_for(0.6);
           }
+          count(drive.run.problems());
           hours += drive.run.time() / 3600.0;
         }
       }
-      CHECK(alarms <= (first == 0 ? 0.0 : 1.0 + hours));  // force_watch.h names the bound
+      CHECK(alarms == 0);
+      CHECK(questions <= 1.0 + hours);  // force_watch.h names the bound
       table += std::string(first == 0 ? "tuned with" : "independent") + " | " + number_text(1e3 * interval, 0) + " | " +
-               number_text(hours, 2) + " | " + std::to_string(alarms) + '\n';
+               number_text(hours, 2) + " | " + std::to_string(alarms) + " | " + std::to_string(questions) + '\n';
     }
   }
   MESSAGE(table);
@@ -277,7 +286,7 @@ TEST_CASE("a stick that drives otherwise than calibrated is switched off in a ra
              " | - | " + std::to_string(all_asked) + " | - | -\n";
     CAPTURE(std::string(wrong.name));
     if (std::string(wrong.name) == "reversed") CHECK(10 * all_stopped >= 8 * all);
-    if (std::string(wrong.name) == "silent") CHECK(10 * all_asked >= 7 * all);
+    if (std::string(wrong.name) == "silent") CHECK(10 * all_asked >= 5 * all);
   }
   MESSAGE(table);
 }

@@ -63,7 +63,7 @@ void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   const auto& [radius, theta, phi] = yoke;
   const auto& [peak, continuous, overload] = actuator;
   const auto& [offset, gain, resolution, range, noise] = sensor;
-  const auto& [hand_mass, hand_damping, hand_stiffness] = hand;
+  const auto& [hand_mass, hand_damping, hand_stiffness, finger_mass, grip_damping, grip_stiffness] = hand;
   CHECK((radius == b.yoke.radius && theta == b.yoke.theta_limit && phi == b.yoke.phi_limit));
   check_equal(axis_x, b.axis_x, "axis_x");
   check_equal(axis_y, b.axis_y, "axis_y");
@@ -72,7 +72,9 @@ void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   CHECK((overload == b.actuator.overload_time && offset == b.force_sensor.offset && gain == b.force_sensor.gain));
   CHECK((resolution == b.force_sensor.resolution_gw && range == b.force_sensor.range_gw));
   CHECK((noise == b.force_sensor.noise_gw && hand_mass == b.hand.mass && hand_damping == b.hand.damping));
-  CHECK((hand_stiffness == b.hand.stiffness && error == b.model_error && jitter == b.period_jitter));
+  CHECK((finger_mass == b.hand.finger_mass && grip_damping == b.hand.grip_damping));
+  CHECK((grip_stiffness == b.hand.grip_stiffness && hand_stiffness == b.hand.stiffness && error == b.model_error &&
+         jitter == b.period_jitter));
   CHECK((own == b.device_wall_stiffness && seed == b.seed));
 }
 

@@ -73,6 +73,7 @@ class RandomPreset {
     own = flag() ? 0.0 : between(0.0, 1e5);
     hand = flag() ? kNamedHands[chance_() % 4].hand
                   : HandImpedance{between(0.0, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
+    if (flag()) hand = {between(0.1, 1e3), 1.0, 2.0, between(0.0, 1e3), between(0.0, 1e3), between(1.0, 1e5)};
     error = between(0.0, 0.5);
     jitter = between(0.0, 0.5);
     seed = chance_() >> 11;  // up to 2^53
@@ -93,34 +94,13 @@ std::vector<double> numbers_of(const SimulatedLeverConfig& lever) {
   const auto& [radius, theta, phi] = yoke;
   const auto& [peak, continuous, overload] = actuator;
   const auto& [offset, gain, resolution, range, noise] = sensor;
-  const auto& [hand_mass, hand_damping, hand_stiffness] = hand;
-  return {radius,
-          theta,
-          phi,
-          x.mass,
-          x.damping,
-          x.stiffness,
-          y.mass,
-          y.damping,
-          y.stiffness,
-          friction,
-          counts,
-          peak,
-          continuous,
-          overload,
-          offset,
-          gain,
-          resolution,
-          range,
-          noise,
-          static_cast<double>(delay),
-          own,
-          hand_mass,
-          hand_damping,
-          hand_stiffness,
-          error,
-          jitter,
-          static_cast<double>(seed)};
+  const auto& [hand_mass, hand_damping, hand_stiffness, finger_mass, grip_damping, grip_stiffness] = hand;
+  return {radius,       theta,          phi,          x.mass,         x.damping,
+          x.stiffness,  y.mass,         y.damping,    y.stiffness,    friction,
+          counts,       peak,           continuous,   overload,       offset,
+          gain,         resolution,     range,        noise,          static_cast<double>(delay),
+          own,          hand_mass,      hand_damping, hand_stiffness, finger_mass,
+          grip_damping, grip_stiffness, error,        jitter,         static_cast<double>(seed)};
 }
 
 void check_equal(const Preset& a, const Preset& b) {
