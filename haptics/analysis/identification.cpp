@@ -124,7 +124,16 @@ struct NormalEquations {
   }
 };
 
+// Steps of the parameters that change the response by about 1e-6 of itself, also where a parameter is 0.
+Parameters derivative_steps(const std::vector<FrequencyPoint>& points, const Parameters& p) {
+  const auto slowest = std::min_element(points.begin(), points.end(),
+                                        [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  const double w = kTwoPi * slowest->frequency;
+  return 1e-6 * glm::max(glm::abs(p), Parameters(p[0], p[0] * w, p[0] * w * w, 1e-2));
+}
+
 NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, const Parameters& p, double period) {
+  const Parameters steps = derivative_steps(points, p);
   NormalEquations sum;
   for (const FrequencyPoint& point : points) {
     const auto residual = [&](const Parameters& at) {
@@ -135,9 +144,8 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, cons
     Parameters real{0.0}, imaginary{0.0};
     for (int i = 0; i < 4; ++i) {
       Parameters shifted = p;
-      const double step = 1e-6 * std::max(std::abs(p[i]), i == 3 ? 1e-2 : 1e-6);
-      shifted[i] += step;
-      const Complex slope = (residual(shifted) - here) / step;
+      shifted[i] += steps[i];
+      const Complex slope = (residual(shifted) - here) / steps[i];
       real[i] = slope.real(), imaginary[i] = slope.imag();
     }
     sum.add(here.real(), real);

@@ -47,10 +47,11 @@ struct ForcesRig {
     if (which == 2) session.apply(ChooseHand{"arm"});
     if (which == 3) session.apply(Restart{session.runtime().config().preset.haptics});
   }
-  // With a position margin of zero, pushing against the device's end stop causes a fault.
+  // With a position margin of zero, pushing through a soft wall to the device's end stop causes a fault.
   void provoke_fault() {
     Restart restart{session.runtime().config().preset.haptics};
     restart.config.guard.position_margin = 0.0;
+    restart.config.tuning.wall_stiffness = 500.0;
     session.apply(restart);
     go(2.0);
     HandTarget hand;
