@@ -40,7 +40,10 @@ void ReversalLimiter::reset() noexcept {
   fraction_ = 1.0;
   floor_count_ = 0;
   is_exhausted_ = false;
-  for (Axis& axis : axis_) axis.count = 0;
+  for (Axis& axis : axis_) {
+    axis.count = 0;
+    axis.next_detection = kReversals;
+  }
 }
 
 bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted, double damping,
@@ -78,7 +81,7 @@ bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted,
   const double duration = time_ - axis.reversal_times[axis.count % kReversals];
   const double omega = std::numbers::pi * (kReversals - 1) / duration;
   const bool can_sustain = std::hypot(wanted, damping * omega) > damping_ * omega;
-  return axis.count >= kReversals && duration < window && can_sustain && !is_dying(axis);
+  return axis.count >= axis.next_detection && duration < window && can_sustain && !is_dying(axis);
 }
 
 bool ReversalLimiter::is_dying(const Axis& axis) noexcept {
@@ -117,7 +120,7 @@ bool ReversalLimiter::is_forced_turn(Axis& axis) noexcept {
 }
 
 bool ReversalLimiter::soften(double wanted) noexcept {
-  for (Axis& axis : axis_) axis.count = 0;
+  for (Axis& axis : axis_) axis.next_detection = std::max(kReversals, axis.count + kMoreReversals);
   if (time_ - last_chatter_ > kCalmTime) floor_count_ = 0;
   last_chatter_ = time_;
   const double floor = wanted > floor_ ? floor_ / wanted : 1.0;

@@ -6,12 +6,12 @@
 //
 // A hand does not reverse a lever eight times in 0.35 s (10 Hz), but a wall that is too stiff for its device does. A hand
 // also trembles, at 8 to 12 Hz (Elble 2003) and by less than a millimetre. So reversals that small count only if eight of
-// them fall within 0.28 s (12.5 Hz). Each detection removes a quarter of the wall's stiffness, down to
-// 0.3 m / tau^2, with the device's mass m, tau = (delay + 1) T and the loop's period T. This stiffness is stable if
-// mass and delay are as specified. If the lever still chatters at this stiffness, mass or delay must differ from the
-// specification, so the stiffness is halved until the lever is still. The reduction lasts until the loop is armed again
-// or the wall is tuned. A bounce that decays costs little or no stiffness. Chatter that persists at 1/64 of the
-// stiffness is not caused by the wall.
+// them fall within 0.28 s (12.5 Hz). While the chatter lasts, four more reversals are another detection. Each detection
+// removes a quarter of the wall's stiffness, down to 0.3 m / tau^2, with the device's mass m, tau = (delay + 1) T and the
+// loop's period T. This stiffness is stable if mass and delay are as specified. If the lever still chatters at this
+// stiffness, mass or delay must differ from the specification, so the stiffness is halved until the lever is still. The
+// reduction lasts until the loop is armed again or the wall is tuned. A bounce that decays costs little or no stiffness.
+// Chatter that persists at 1/64 of the stiffness is not caused by the wall.
 //
 // The load may vibrate the lever on purpose, for example to simulate a stalling engine. The lever then reverses as
 // often as the vibration force and moves no further than this force can move it. Such reversals are ignored: a softer
@@ -46,7 +46,7 @@ class ReversalLimiter {
   bool is_exhausted() const noexcept { return is_exhausted_; }      // chatter persists despite softening
 
  private:
-  static constexpr std::size_t kReversals = 8;
+  static constexpr std::size_t kReversals = 8, kMoreReversals = 4;  // for a detection; for another soon after
 
   // Detects reversals of a value. A reversal counts once the value has moved back from its extreme by `back`.
   struct Swing {
@@ -64,7 +64,8 @@ class ReversalLimiter {
     std::array<double, kReversals> reversal_times{};   // [s] times of lever reversals not explained by the vibration
     std::array<double, kReversals> reversal_widths{};  // [m] their distances from the reversal before
     std::size_t count = 0;
-    double narrow_time = -1.0;  // [s] time of the last reversal as narrow as a tremor
+    std::size_t next_detection = kReversals;  // count from which the reversals may be chatter
+    double narrow_time = -1.0;                // [s] time of the last reversal as narrow as a tremor
   };
 
   void track_vibration(glm::dvec2 vibration) noexcept;

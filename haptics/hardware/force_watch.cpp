@@ -51,7 +51,7 @@ constexpr std::array<Explanation, 4> kAnyStick{{{ForceFault::none, 1.0, 1.0, 0.0
 constexpr std::size_t kRight = 0, kSilent = 2;
 
 constexpr double kMinDoubtful = 6.0, kMinDriving = 10.0, kMaybeSilent = 6.0;  // [nat]
-constexpr double kNeverDrove = 3.0;  // [nat]
+constexpr double kNeverDrove = 3.0;                                           // [nat]
 constexpr std::int64_t kSilentTime = 4'000'000'000;                           // [ns] since the forces were seen
 constexpr double kMemory = 1.5;                  // [s] of telling motion; readings that tell nothing are not counted
 constexpr double kTelling = 400.0;               // [1/s] squared difference between right and silent, over the variance
@@ -247,7 +247,8 @@ double ForceWatch::likelihood(int axis, std::size_t stick) const noexcept {
 
 bool ForceWatch::may_be_silent() const noexcept {
   const bool drove = drives_ && time_ns_ - driving_ns_ < kSilentTime;
-  return !drove && evidence(0, ForceFault::silent) + evidence(1, ForceFault::silent) > (drives_ ? kMaybeSilent : kNeverDrove);
+  return !drove &&
+         evidence(0, ForceFault::silent) + evidence(1, ForceFault::silent) > (drives_ ? kMaybeSilent : kNeverDrove);
 }
 
 double ForceWatch::evidence(int axis, ForceFault fault) const noexcept {
