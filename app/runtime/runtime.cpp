@@ -188,6 +188,7 @@ struct Runtime::State {
   std::uint64_t stamped_cycle = 0;
   std::uint64_t commanded_run = 0, commanded_cycle = 0;  // newest cycle when the last command was sent
   bool wants_forces = false;        // true if the last request was arm(), false after disarm() or stop()
+  bool has_ended = false;           // in an earlier loop, a fault ended the forces; until arm()
   std::int64_t start_ns = 0;        // [ns] one period before the first cycle, on the loop's clock
   std::int64_t virtual_ns = 0;      // [ns] time of the last cycle on the virtual clock
   double pending_time = 0.0;        // [s] time passed to advance() but not yet simulated, less than one period
@@ -306,7 +307,8 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
       std::this_thread::sleep_for(kPollPeriod);
   }
   run = std::move(next);
-  if (!wants_forces || !requires_arming(last)) return;
+  has_ended = has_ended || requires_arming(last);
+  if (!wants_forces || !has_ended) return;
   wants_forces = false;
   send(haptics::LoopCommand::stop);
 }
@@ -418,6 +420,7 @@ haptics::AdmittedTuning Runtime::change_tuning(const haptics::HapticTuning& want
 
 void Runtime::arm() {
   state_->wants_forces = true;
+  state_->has_ended = false;
   state_->send(haptics::LoopCommand::arm);
 }
 
@@ -433,7 +436,7 @@ void Runtime::stop() {
 
 bool Runtime::requires_arming() {
   state_->update_newest();
-  return state_->requires_arming(state_->newest);
+  return state_->has_ended || state_->requires_arming(state_->newest);
 }
 
 LoopHealth Runtime::health() {
@@ -466,7 +469,8 @@ void Runtime::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   std::unique_ptr<LoopRun> next = s.make_run();
   // Forces that were requested count as on even if the loop has not processed the command yet.
-  const bool armed = s.wants_forces && !s.requires_arming(s.newest);
+  s.has_ended = s.has_ended || s.requires_arming(s.newest);
+  const bool armed = s.wants_forces && !s.has_ended;
   if (armed) next->loop.arm();
   s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed));
   s.recorded_run = next->number;

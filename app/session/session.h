@@ -109,10 +109,10 @@ class Session {
   void arm();
   SessionChoice current_choice() const;
   void change_choice(const SessionChoice& wanted, std::string_view reason);
+  void offer_in_its_gate(const SessionChoice& choice, const lessons::Lesson& lesson);
+  void add_message(const std::string& message);  // after the present one
   // Replaces the lever. `reason`: reported if this ends a lesson. If the new lever is rejected, the old one keeps
   // running unchanged; if a stick's new lever fails although it was accepted, the old one runs again, without forces.
-  void offer_in_its_gate(const SessionChoice& choice, const lessons::Lesson& lesson);
-  void add_message(const std::string& message);  // behind the current one
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
                  std::string_view reason = "the loop was restarted");
   void show_lever_in_force();

@@ -88,8 +88,8 @@ std::vector<lab::ContactHand> hands_of(const ContactArguments& arguments) {
   const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(arguments.hand);
   if (!hand)
     throw CLI::ValidationError(fmt::format(
-        "--hand {}: must be bare, light, grip, arm, elastic, pinch, all, random or M,B,K [kg, N s/m, N/m], or "
-        "M,B,K,M,B,K for a hand and its elastic grip",
+        "--hand {}: must be bare, light, grip, arm, elastic, pinch, all, random or M,B,K [kg, N s/m, N/m], followed by "
+        "the fingers' mass and the grip's damping and stiffness for an elastic hand",
         arguments.hand));
   return {{arguments.hand, *hand}};
 }

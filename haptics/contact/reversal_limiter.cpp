@@ -16,10 +16,11 @@ constexpr double kNarrowTime = 0.25;        // [s] as long after a narrow swing
 constexpr double kVibrationTimeout = 0.25;  // [s] longest time between two reversals of a vibration (2 Hz or faster)
 constexpr double kContactWindow = 0.25;     // [s] chatter so long after the lever left a wall is not caused by the wall
 constexpr double kDying = 0.5;              // [1] a swing that shrinks to this fraction dies away by itself
-constexpr double kCalmTime = 0.5;           // [s] after this time without chatter the lever counts as calm
-constexpr double kSoftening = 0.75;         // [1] each detection of chatter multiplies the stiffness by this factor
-constexpr double kFloorFactor = 0.3;        // [1] stiffness floor as a factor on m / tau^2 (see the header)
-constexpr int kMaxBounces = 3;              // up to this many detections at the floor may be one decaying bounce
+constexpr std::size_t kMaxStruckTurns = 24;   // reversals for which a hand may strike a dying swing again and again
+constexpr double kCalmTime = 0.5;             // [s] after this time without chatter the lever counts as calm
+constexpr double kSoftening = 0.75;           // [1] each detection of chatter multiplies the stiffness by this factor
+constexpr double kFloorFactor = 0.3;          // [1] stiffness floor as a factor on m / tau^2 (see the header)
+constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be one decaying bounce
 constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per detection once a bounce is ruled out
 constexpr double kMinFraction = 1.0 / 64.0;   // [1] fraction of the wanted stiffness at which softening has failed
 constexpr double kMinVibration = 0.02;        // [N] weaker vibrations cannot move a lever by four counts
@@ -42,7 +43,7 @@ void ReversalLimiter::reset() noexcept {
   is_exhausted_ = false;
   for (Axis& axis : axis_) {
     axis.count = 0;
-    axis.next_detection = kReversals;
+    axis.lasted = 0;
   }
 }
 
@@ -81,7 +82,15 @@ bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted,
   const double duration = time_ - axis.reversal_times[axis.count % kReversals];
   const double omega = std::numbers::pi * (kReversals - 1) / duration;
   const bool can_sustain = std::hypot(wanted, damping * omega) > damping_ * omega;
-  return axis.count >= axis.next_detection && duration < window && can_sustain && !is_dying(axis);
+  const bool is_fast = axis.count >= kReversals && duration < window && can_sustain;
+  if (is_fast && axis.lasted == 0) axis.first_width = widest(axis);
+  if (axis.count >= kReversals) axis.lasted = is_fast ? axis.lasted + 1 : 0;
+  const bool lasts = axis.lasted > kMaxStruckTurns && widest(axis) > kDying * axis.first_width;
+  return is_fast && (lasts || !is_dying(axis));
+}
+
+double ReversalLimiter::widest(const Axis& axis) noexcept {
+  return *std::max_element(axis.reversal_widths.begin(), axis.reversal_widths.end());
 }
 
 bool ReversalLimiter::is_dying(const Axis& axis) noexcept {
@@ -120,7 +129,7 @@ bool ReversalLimiter::is_forced_turn(Axis& axis) noexcept {
 }
 
 bool ReversalLimiter::soften(double wanted) noexcept {
-  for (Axis& axis : axis_) axis.next_detection = std::max(kReversals, axis.count + kMoreReversals);
+  for (Axis& axis : axis_) axis.count = 0;
   if (time_ - last_chatter_ > kCalmTime) floor_count_ = 0;
   last_chatter_ = time_;
   const double floor = wanted > floor_ ? floor_ / wanted : 1.0;

@@ -6,7 +6,7 @@
 //
 // A hand does not reverse a lever eight times in 0.35 s (10 Hz), but a wall that is too stiff for its device does. A hand
 // also trembles, at 8 to 12 Hz (Elble 2003) and by less than a millimetre. So reversals that small count only if eight of
-// them fall within 0.28 s (12.5 Hz). While the chatter lasts, four more reversals are another detection. Each detection
+// them fall within 0.28 s (12.5 Hz). Each detection
 // removes a quarter of the wall's stiffness, down to 0.3 m / tau^2, with the device's mass m, tau = (delay + 1) T and the
 // loop's period T. This stiffness is stable if mass and delay are as specified. If the lever still chatters at this
 // stiffness, mass or delay must differ from the specification, so the stiffness is halved until the lever is still. The
@@ -17,8 +17,9 @@
 // often as the vibration force and moves no further than this force can move it. Such reversals are ignored: a softer
 // wall would not calm them, and the lever needs its walls. Reversals that are more frequent or wider than the vibration
 // explains count as usual. A swing does not count either if no wall of this stiffness and damping can sustain it, or if it
-// dies away by itself: if one of the eight widths is less than half of an earlier one. Whatever strikes the lever
-// anew in the meantime, a hand that lets go or hits a wall, does not make a dying swing a lasting one.
+// dies away by itself: if one of the eight widths is less than half of an earlier one. A hand that lets go or hits a wall
+// may strike a dying swing again, but not for long: after 24 reversals that are still half as wide as the first ones, it is
+// chatter, however uneven.
 #pragma once
 
 #include <array>
@@ -46,7 +47,7 @@ class ReversalLimiter {
   bool is_exhausted() const noexcept { return is_exhausted_; }      // chatter persists despite softening
 
  private:
-  static constexpr std::size_t kReversals = 8, kMoreReversals = 4;  // for a detection; for another soon after
+  static constexpr std::size_t kReversals = 8;
 
   // Detects reversals of a value. A reversal counts once the value has moved back from its extreme by `back`.
   struct Swing {
@@ -64,13 +65,15 @@ class ReversalLimiter {
     std::array<double, kReversals> reversal_times{};   // [s] times of lever reversals not explained by the vibration
     std::array<double, kReversals> reversal_widths{};  // [m] their distances from the reversal before
     std::size_t count = 0;
-    std::size_t next_detection = kReversals;  // count from which the reversals may be chatter
-    double narrow_time = -1.0;                // [s] time of the last reversal as narrow as a tremor
+    std::size_t lasted = 0;     // number of reversals since they became too fast for a hand
+    double first_width = 0.0;   // [m] of the widest reversal then
+    double narrow_time = -1.0;  // [s] time of the last reversal as narrow as a tremor
   };
 
   void track_vibration(glm::dvec2 vibration) noexcept;
   bool is_forced_turn(Axis& axis) noexcept;
   bool detect_chatter(Axis& axis, double position, double wanted, double damping) noexcept;
+  static double widest(const Axis& axis) noexcept;
   static bool is_dying(const Axis& axis) noexcept;
   bool soften(double wanted) noexcept;
 

@@ -50,9 +50,11 @@ constexpr std::array<Explanation, 4> kAnyStick{{{ForceFault::none, 1.0, 1.0, 0.0
                                                 {ForceFault::reversed, 1.0, -1.0, 60.0}}};
 constexpr std::size_t kRight = 0, kSilent = 2;
 
-constexpr double kMinDoubtful = 6.0, kMinDriving = 10.0, kMaybeSilent = 6.0;  // [nat]
-constexpr double kNeverDrove = 3.0;                                           // [nat]
-constexpr std::int64_t kSilentTime = 4'000'000'000;                           // [ns] since the forces were seen
+constexpr double kMinDoubtful = 6.0,
+                 kMinDriving = 10.0;  // [nat] for a fault that the stick reports; that forces are seen
+constexpr double kMaybeSilent = 6.0,
+                 kNeverDrove = 3.5;                  // [nat] that no motor acts; the same before forces were ever seen
+constexpr std::int64_t kSilentTime = 4'000'000'000;  // [ns] since the forces were seen
 constexpr double kMemory = 1.5;                  // [s] of telling motion; readings that tell nothing are not counted
 constexpr double kTelling = 400.0;               // [1/s] squared difference between right and silent, over the variance
 constexpr double kMaxSurprise = 25.0;            // [1] squared error over its variance: a single reading proves little

@@ -180,14 +180,15 @@ void PidLever::watch_full_force(glm::dvec2 moved, glm::dvec2 force) noexcept {
     const bool is_full = spec_.max_force[i] >= kStrong && std::abs(force[i]) > kNearlyFull * spec_.max_force[i];
     if (is_full && moved[i] * force[i] < 0.0) against_[i] += std::abs(moved[i]);
     const bool is_far = against_[i] > kFarAgainst;
-    if (is_full && is_far)
-      is_doubtful_[static_cast<std::size_t>(i)] = is_doubtful_[static_cast<std::size_t>(i)] || watch_.may_be_silent();
-    if (is_full) continue;
-    if (is_far) doubtful_pushes_ = is_doubtful_[static_cast<std::size_t>(i)] ? doubtful_pushes_ + 1 : 0;
-    if (is_far && (doubtful_pushes_ >= kDoubtfulPushes || !calibration_.has_timing()))
+    bool& is_doubtful = is_doubtful_[static_cast<std::size_t>(i)];
+    is_doubtful = is_doubtful || (is_full && is_far && watch_.may_be_silent());
+    const int doubtful_pushes = is_doubtful ? doubtful_pushes_ + 1 : 0;
+    if (is_far && (doubtful_pushes >= kDoubtfulPushes || !calibration_.has_timing()))
       driver_.report_once(StickProblem::overpowered, std::lround(1e3 * against_[i]));
+    if (is_full) continue;
+    if (is_far) doubtful_pushes_ = doubtful_pushes;
     against_[i] = 0.0;
-    is_doubtful_[static_cast<std::size_t>(i)] = false;
+    is_doubtful = false;
   }
 }
 
@@ -279,6 +280,9 @@ void PidLever::send() noexcept {
 void PidLever::release() noexcept {
   command_ = {};
   walls_ = {};
+  against_ = {};
+  is_doubtful_ = {};
+  doubtful_pushes_ = 0;
   driver_.release();
 }
 

@@ -55,9 +55,10 @@ void read_lever_text(const TomlTable& table, SimulatedLeverConfig& lever) {
   if (!table.has("hand")) return;
   const std::optional<HandImpedance> hand = parse_hand(table.text("hand"));
   if (!hand || !is_in_range(*hand))
-    table.fail(
-        "hand",
-        "must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 N/m");
+    table.fail("hand",
+               "must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 "
+               "N/m, followed "
+               "by the fingers' mass and the grip's damping and stiffness for an elastic hand");
   lever.hand = *hand;
 }
 

@@ -59,8 +59,8 @@ class Coach {
 
   // Starts a trial, whose first sample is the next one. A trial without samples is not saved. GuidancePolicy decides
   // how much guidance the trial gets, from the learner's past trials of this lesson. The first trial after a pause of
-  // 20 h (kRetentionPause) is a retention test. `recording`: absolute path, or empty. Throws std::invalid_argument if the gate lacks a gear that the lesson needs, and std::logic_error if no
-  // lesson is offered.
+  // 20 h (kRetentionPause) is a retention test. `recording`: absolute path, or empty. Throws std::invalid_argument if the
+  // gate lacks a gear that the lesson needs, and std::logic_error if no lesson is offered.
   void begin(const vehicle::CarSpec& car, const haptics::Gate& gate, const std::filesystem::path& recording);
   // Processes samples in order; a gap in their cycle numbers makes the run incomplete. Call in every frame, even
   // without samples, because this call also retries to save results.

@@ -350,7 +350,7 @@ void DriverInput::rebind(const Bindings& bindings) {
   config_.bindings = bindings;
   watch_ = {};
   shifters_.clear();
-  is_stick_pulled_ = false;
+  is_stick_pulled_ = true;
   has_pads_ = false;
   for (std::set<Source>* sources : {&down_, &newly_down_, &released_})
     std::erase_if(*sources, [](const Source& source) { return source.device != kKeyboard; });

@@ -148,7 +148,7 @@ class DriverInput {
   std::optional<haptics::Gate> gate_;
   GearHand gear_hand_;
   std::vector<std::optional<int>> shifters_;  // gear of each of Bindings::controllers; empty: not plugged in
-  bool is_stick_pulled_ = false;              // with LeverMode::steps, since the stick last sprang back
+  bool is_stick_pulled_ = true;               // with LeverMode::steps, until the stick springs back
   bool has_pads_ = false;                     // in the last frame
   bool is_gear_of_shifter_ = false;           // the gear that gear_hand_ moves to
   bool was_clutch_down_ = false;

@@ -181,10 +181,11 @@ TEST_CASE("event times are relative to the session's start, across every change 
   }
 }
 
-TEST_CASE("forces removed by a fault are not restored by two changes or the start of a lesson; only arming does") {
-  for (const bool lesson : {false, true}) {
+TEST_CASE("forces removed by a fault are not restored by a recording, two changes or a lesson; only arming does") {
+  for (const auto& [lesson, recording] : {std::pair{false, false}, {true, false}, {false, true}}) {
     ForcesRig rig;
     rig.provoke_fault();
+    if (recording) rig.cause(ForceCause::recording);
     rig.change(2);
     rig.go(1.0);
     CHECK_FALSE(rig.has_forces());

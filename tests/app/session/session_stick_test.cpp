@@ -231,10 +231,11 @@ TEST_CASE("a stick without power says so on the screen, whether it reports its s
     }
     rig.arm();
     int frame = 0;
-    CHECK(rig.becomes_true([&] {
+    const auto is_told = [&] {
       rig.held.hand.go({0.012, ++frame / 80 % 2 == 0 ? 0.0 : 0.020});  // turns every 0.4 s
       return rig.says("power supply");
-    }));
+    };
+    CHECK((rig.becomes_true(is_told) || rig.becomes_true(is_told) || rig.becomes_true(is_told)));  // within 30 s
     CHECK(
         rig.says(tells_state ? "the stick reported that its motors have no power" : "against the stick's full force"));
     CHECK(rig.held.force() == 0.0);

@@ -58,13 +58,13 @@ double resonant_span(double frequency) {
 
 }  // namespace
 
-TEST_CASE("a fast rattle in a wall lowers it by a quarter after eight reversals and after every four more") {
+TEST_CASE("a fast rattle in a wall lowers it by a quarter within eight reversals") {
   DeviceSpec spec = paper_spec();
   spec.delay = 3;
   ReversalLimiter limiter(spec, kLimiterPeriod);
   CHECK(count_softenings(limiter, 40.0, 6.0 * kCount, 0.12) == 1);
   CHECK(limiter.stiffness_fraction() == doctest::Approx(0.75));
-  CHECK(count_softenings(limiter, 40.0, 6.0 * kCount, 0.11) == 2);
+  CHECK(count_softenings(limiter, 40.0, 6.0 * kCount, 0.22) == 2);
   CHECK(limiter.stiffness_fraction() == doctest::Approx(0.75 * 0.75 * 0.75));
   limiter.reset();
   CHECK(limiter.stiffness_fraction() == 1.0);
@@ -91,7 +91,7 @@ TEST_CASE("a swing that dies away by itself softens nothing; one that does not, 
 }
 
 // Measured in the campaign: a hand that lets go or strikes again gave a dying swing one wide last turn.
-TEST_CASE("a dying swing that is struck again and again is no chatter; a growing or uneven one is") {
+TEST_CASE("a dying swing that is struck again some times is no chatter; a growing, uneven or lasting one is") {
   const auto softenings = [](const std::function<double(int)>& width, int turns) {
     DeviceSpec spec = paper_spec();
     spec.delay = 3;
@@ -107,7 +107,11 @@ TEST_CASE("a dying swing that is struck again and again is no chatter; a growing
     }
     return count;
   };
-  CHECK(softenings([](int turn) { return 2e-3 * std::pow(0.75, turn % 6); }, 60) == 0);
+  CHECK(softenings([](int turn) { return 2e-3 * std::pow(0.75, turn % 6); }, 30) == 0);
+  CHECK(softenings([](int turn) { return 2e-3 * std::pow(0.75, turn % 6); }, 60) >= 3);
+  CHECK(softenings([](int turn) { return 20e-3 * std::pow(0.9, turn); }, 60) == 0);  // dies away for long
+  // A closed cycle of four reversals: 1 + 0.4 = 2 * 0.7.
+  CHECK(softenings([](int turn) { return 1e-3 * (turn % 2 == 1 ? 0.7 : turn % 4 == 0 ? 1.0 : 0.4); }, 60) >= 3);
   CHECK(softenings([](int turn) { return 1e-3 * std::pow(1.3, turn); }, 9) == 1);
   CHECK(softenings([](int turn) { return 1e-3 * (turn % 3 == 0 ? 0.7 : 1.0); }, 60) >= 3);
 }
