@@ -233,7 +233,7 @@ TEST_CASE("a stick without power says so on the screen, whether it reports its s
     int frame = 0;
     const auto is_told = [&] {
       rig.held.hand.go({0.012, ++frame / 80 % 2 == 0 ? 0.0 : 0.020});  // turns every 0.4 s
-      if (rig.says("position has not changed")) rig.arm();  // as that message asks
+      if (rig.says("position has not changed")) rig.arm();             // as that message asks
       return rig.says("power supply");
     };
     CHECK((rig.becomes_true(is_told) || rig.becomes_true(is_told) || rig.becomes_true(is_told)));  // within 30 s
