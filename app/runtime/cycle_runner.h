@@ -21,8 +21,9 @@ struct LoopRun {
   // Gate, device and inputs must outlive this object. Without a car the lever has no load. Throws the same errors as
   // HapticLoop.
   LoopRun(const haptics::HapticConfig& config, const haptics::Gate& gate, haptics::HapticDevice& device,
-          haptics::LoopInputs& inputs, std::uint64_t run_number, std::unique_ptr<vehicle::CarLoad> car_load = nullptr)
-      : number(run_number), car(std::move(car_load)), loop(config, gate, device, load(), inputs) {}
+          haptics::LoopInputs& inputs, std::uint64_t run_number, std::unique_ptr<vehicle::CarLoad> car_load = nullptr,
+          int start_gear = haptics::kNeutralGear)
+      : number(run_number), no_load(start_gear), car(std::move(car_load)), loop(config, gate, device, load(), inputs) {}
   LoopRun(const LoopRun&) = delete;
   LoopRun& operator=(const LoopRun&) = delete;
 

@@ -246,8 +246,9 @@ vehicle::DriverAction Runtime::State::resting_action() const {
 std::unique_ptr<LoopRun> Runtime::State::make_run() {
   update_newest();
   const vehicle::CarStart from = vehicle::start_from(newest.car);
+  const int gear = haptics::is_sequential(gate) ? newest.cycle.out.gear : haptics::kNeutralGear;
   return std::make_unique<LoopRun>(running_config(), gate, lever, runner.inputs, run->number + 1,
-                                   make_car(config, gate, lever.spec(), from, newest.keyboard));
+                                   make_car(config, gate, lever.spec(), from, newest.keyboard), gear);
 }
 
 void Runtime::State::begin() {

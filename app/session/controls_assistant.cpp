@@ -20,10 +20,12 @@
 namespace gearshift::session {
 namespace {
 
-// In a sequential gate, the driver opens the way into `gear` by holding a control. Empty if nothing locks it out.
-std::optional<ui::Action> opens(const haptics::Gate& gate, int gear) {
+// In a sequential gate, the driver opens the way from one gear into another by holding a control. Empty if nothing locks
+// it.
+std::optional<ui::Action> opens(const haptics::Gate& gate, int from, int to) {
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    if (!haptics::is_sequential(gate) || haptics::locked_gear(gate, lockout) != gear) continue;
+    if (!haptics::is_sequential(gate) || lockout.from_gear != from) continue;
+    if (haptics::locked_gear(gate, lockout) != to) continue;
     if (lockout.kind == haptics::LockoutKind::push_down) return ui::Action::push_down;
     if (lockout.kind == haptics::LockoutKind::lift) return ui::Action::lift;
   }
@@ -35,7 +37,7 @@ std::string shift_request(const ui::DriverInput::MissedGear& missed, const hapti
   const char* name = haptics::gear_name(missed.gear);
   if (!haptics::has_gear(gate, missed.gear)) return fmt::format("This gearbox has no gear {}.", name);
   if (missed.of_shifter) return fmt::format("Your shifter is in {}, but the lever is not. Press the clutch.", name);
-  const std::optional<ui::Action> opening = opens(gate, missed.gear);
+  const std::optional<ui::Action> opening = opens(gate, missed.engaged, missed.gear);
   if (!opening) return fmt::format("The lever did not reach {}. Press the clutch.", name);
   const std::vector<std::string> inputs = ui::bound_inputs(bindings, *opening, all);
   return fmt::format("{} is locked out. Hold {}{} while you shift down.", name,

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include <glm/vec2.hpp>
 
@@ -84,8 +85,16 @@ class LeverLoad {
 
 class NoLoad final : public LeverLoad {
  public:
+  explicit NoLoad(int start_gear = kNeutralGear)
+      : start_gear_(start_gear),
+        parameters_(start_gear == kNeutralGear ? "none" : "none " + std::to_string(start_gear)) {}
   LeverOutput step(const LeverInput&, double) noexcept override { return {}; }
-  const char* replay_parameters() const noexcept override { return "none"; }
+  const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
+  int start_gear() const noexcept override { return start_gear_; }
+
+ private:
+  int start_gear_;
+  std::string parameters_;  // "none", or "none 3" in third gear
 };
 
 }  // namespace gearshift::haptics

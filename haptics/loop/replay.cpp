@@ -103,8 +103,11 @@ std::unique_ptr<LeverLoad> make_known_load(const std::string& name, const Gate& 
 }  // namespace
 
 std::unique_ptr<LeverLoad> make_no_load(const std::string& name, const Gate&) {
-  auto load = std::make_unique<NoLoad>();
-  return name == load->replay_parameters() ? std::move(load) : nullptr;
+  for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
+    auto load = std::make_unique<NoLoad>(gear);
+    if (name == load->replay_parameters()) return load;
+  }
+  return nullptr;
 }
 
 struct Replayer::Rig {

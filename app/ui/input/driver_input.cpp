@@ -173,9 +173,9 @@ void DriverInput::retry_gear() {
 std::optional<DriverInput::MissedGear> DriverInput::missed_gear() const {
   if (gear_hand_.is_moving()) return std::nullopt;
   std::optional<MissedGear> wanted;
-  if (gear_hand_.is_active()) wanted = {gear_hand_.selected_gear(), is_gear_of_shifter_};
+  if (gear_hand_.is_active()) wanted = {gear_hand_.selected_gear(), engaged_, is_gear_of_shifter_};
   for (const std::optional<int>& gear : shifters_)
-    if (gear.value_or(haptics::kNeutralGear) != haptics::kNeutralGear) wanted = {*gear, true};
+    if (gear.value_or(haptics::kNeutralGear) != haptics::kNeutralGear) wanted = {*gear, engaged_, true};
   return wanted && wanted->gear != engaged_ ? wanted : std::nullopt;
 }
 

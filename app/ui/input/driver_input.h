@@ -82,6 +82,7 @@ class DriverInput {
   // or something holds the lever, for example a synchroniser. Empty otherwise.
   struct MissedGear {
     int gear = 0;
+    int engaged = 0;          // gear in place of it
     bool of_shifter = false;  // a shifter is in this gear; otherwise a button for one gear up or down has selected it
   };
   std::optional<MissedGear> missed_gear() const;

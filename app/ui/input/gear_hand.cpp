@@ -70,8 +70,9 @@ void GearHand::shift_by(int gears, int engaged, glm::dvec2 lever) {
 void GearHand::try_again(int engaged, glm::dvec2 lever) {
   if (!gate_) return;
   const auto lockouts = haptics::lockouts(*gate_);
-  const bool is_locked = std::any_of(lockouts.begin(), lockouts.end(), [this](const haptics::Lockout& lockout) {
-    return haptics::locked_gear(*gate_, lockout) == gear_;
+  const bool is_locked = std::any_of(lockouts.begin(), lockouts.end(), [&](const haptics::Lockout& lockout) {
+    const bool stands = lockout.from_gear == haptics::kAnyGear || lockout.from_gear == engaged;
+    return stands && haptics::locked_gear(*gate_, lockout) == gear_;
   });
   if (opens_lockouts_ || !is_locked) shift(gear_, engaged, lever, opens_lockouts_);
 }

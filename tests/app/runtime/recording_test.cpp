@@ -17,6 +17,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/app/runtime/runtime_rig.h"
+#include "tests/support/gates.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 
@@ -141,6 +142,29 @@ TEST_CASE("the begin of a recording loses or reorders no event, and does not res
   add_gears(events, gears);
   CHECK(gears == std::vector{1, 2, 2, 3});
   for (std::size_t i = 1; i < events.size(); ++i) CHECK(events[i].time_ns >= events[i - 1].time_ns);
+}
+
+TEST_CASE("a recording begun in third of a sequential gate, without a car, stays in third and replays bit for bit") {
+  const TempFolder folder;
+  Runtime runtime(runtime_config(RuntimeClock::virtual_time, kSequentialGate));
+  runtime.arm();
+  const auto stroke = [&](double shift) {
+    for (const double place : {shift, 0.0}) {
+      HandTarget target;
+      target.position = {0.0, place};
+      runtime.set_hand(target);
+      runtime.advance(0.6);
+    }
+  };
+  for (int i = 0; i < 3; ++i) stroke(-0.045);
+  REQUIRE(runtime.snapshot().gear == 3);
+  runtime.start_recording(folder / "drive.trace");
+  runtime.advance(0.2);
+  CHECK(runtime.snapshot().gear == 3);
+  stroke(-0.045);
+  CHECK(runtime.snapshot().gear == 4);
+  CHECK_FALSE(runtime.stop_recording());
+  CHECK(replay(read_trace(folder / "drive.trace")).bit_for_bit());
 }
 
 TEST_CASE("a recording never switches forces on, neither in a disarmed runtime nor just after a stop") {

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -149,6 +150,26 @@ TEST_CASE("bindings that cannot be saved apply to this session, and the reason i
   }
 }
 
+TEST_CASE("in a sequential gate, neutral is locked on the way down only; on the way up the clutch is asked for") {
+  const TempFolder folder;
+  for (const auto& [engaged, button, request] :
+       {std::tuple{1, 1u, "N is locked out. Hold the lift ring up (W) while you shift down."},
+        std::tuple{kReverseGear, 0u, "The lever did not reach N. Press the clutch."}}) {
+    ControlsDesk desk(folder / "own.toml");
+    Bindings bindings = shipped_bindings();
+    bindings.controllers = {{{"Box", ""}, 0, {{Action::shift_up, {0}}, {Action::shift_down, {1}}}, {}}};
+    desk.driver.rebind(bindings);
+    desk.driver.set_gate(shipped_gate(kSequentialGate), DeviceSpec{});
+    desk.driver.feel({}, engaged);
+    desk.frame();
+    desk.all[1].buttons[button] = 1;
+    desk.frame();
+    desk.all[1].buttons[button] = 0;
+    for (int i = 0; i < 300; ++i) desk.frame();
+    CHECK(desk.assistant.view(shipped_gate(kSequentialGate), true).request == request);
+  }
+}
+
 TEST_CASE("a shifter in a gear that the gate lacks, and one whose gear the lever is not in, are named in a sentence") {
   const TempFolder folder;
   ControlsDesk desk(folder / "own.toml");
@@ -250,7 +271,7 @@ TEST_CASE("controllers that are declined are not offered at the next start, but 
   later.all = all;
   later.frame();
   CHECK(later.offers().empty());
-  // Nor does the console name them.
+  // The console does not name them either.
   later.all.push_back(controller("New", {0.0f}));
   const std::vector<std::string> sentences =
       describe_unbound(shipped_bindings(), later.all, later.assistant.declined());

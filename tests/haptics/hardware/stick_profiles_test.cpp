@@ -402,46 +402,33 @@ TEST_CASE("a stick whose only motor moves X drives the gate's shift axis, if X i
   }
 }
 
-TEST_CASE("a lever that moves forward and back only: with one motor and with two") {
-  std::string table = "stick | gears | rms N | worst N\n";
-  for (const int motors : {1, 2}) {
-    CAPTURE(motors);
-    EmulatedStickConfig config;
-    config.family = StickFamily::openffboard;
-    config.habits.motors = motors;
-    const bool is_swapped = motors == 1;  // the only motor moves X
-    const Calibrated calibrated = calibrate_stick(config, is_swapped);
-    CHECK(calibrated.refusal == "");
-    CHECK(calibrated.found.select_by_position == is_swapped);
-    const Driven driven = drive_through(straight_gate(config), config, calibrated.found, is_swapped);
-    CHECK(driven.gears == 2);
-    CHECK(driven.rms < kMaxRms);
-    CHECK(driven.wrong == 0.0);
-    CHECK(driven.problems.empty());
-    table += std::to_string(motors) + " | " + std::to_string(driven.gears) + " | " + std::to_string(driven.rms) +
-             " | " + std::to_string(driven.worst) + '\n';
-  }
-  MESSAGE(table);
-}
-
-// The other lever along one axis: the select axis has neither motor nor forces.
-TEST_CASE("a sequential gate with one motor and with two: six gears up and down, and reverse") {
-  std::string table = "motors | engaged | rms N | worst N\n";
-  for (const int motors : {1, 2}) {
-    CAPTURE(motors);
-    EmulatedStickConfig config;
-    config.family = StickFamily::openffboard;
-    config.habits.motors = motors;
-    const bool is_swapped = motors == 1;  // the only motor moves X
-    const Calibrated calibrated = calibrate_stick(config, is_swapped);
-    CHECK(calibrated.refusal == "");
-    const Driven driven = drive_through(stick_gate("sequential_six", config), config, calibrated.found, is_swapped);
-    CHECK(driven.order == std::vector{1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, kReverseGear});
-    CHECK(driven.rms < kMaxRms);
-    CHECK(driven.wrong == 0.0);
-    CHECK(driven.problems.empty());
-    table += std::to_string(motors) + " | " + std::to_string(driven.order.size()) + " | " + std::to_string(driven.rms) +
-             " | " + std::to_string(driven.worst) + '\n';
+// Levers along one axis: the select axis needs neither motor nor forces.
+TEST_CASE("a lever that moves forward and back only, and a sequential gate: with one motor and with two") {
+  std::string table = "gate | motors | gears | rms N | worst N\n";
+  for (const bool is_sequential : {false, true}) {
+    for (const int motors : {1, 2}) {
+      CAPTURE(is_sequential);
+      CAPTURE(motors);
+      EmulatedStickConfig config;
+      config.family = StickFamily::openffboard;
+      config.habits.motors = motors;
+      const bool is_swapped = motors == 1;  // the only motor moves X
+      const Calibrated calibrated = calibrate_stick(config, is_swapped);
+      CHECK(calibrated.refusal == "");
+      CHECK(calibrated.found.select_by_position == is_swapped);
+      const Gate gate = is_sequential ? stick_gate(kSequentialGate, config) : straight_gate(config);
+      const Driven driven = drive_through(gate, config, calibrated.found, is_swapped);
+      if (is_sequential)
+        CHECK(driven.order == std::vector{1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, kReverseGear});
+      else
+        CHECK(driven.gears == 2);
+      CHECK(driven.rms < kMaxRms);
+      CHECK(driven.wrong == 0.0);
+      CHECK(driven.problems.empty());
+      table += std::string(is_sequential ? "sequential" : "straight") + " | " + std::to_string(motors) + " | " +
+               std::to_string(driven.gears) + " | " + std::to_string(driven.rms) + " | " +
+               std::to_string(driven.worst) + '\n';
+    }
   }
   MESSAGE(table);
 }
