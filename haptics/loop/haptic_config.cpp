@@ -47,6 +47,8 @@ constexpr const char* kCountStiffnessLaw =
 constexpr const char* kCountObserverLaw =
     "with the observer hold, one encoder count q changes the velocity by more than 0.125 m/s";
 constexpr const char* kSlewLaw = "the slew limit S per cycle follows a contact at 1 m/s only if K <= S / (T 1 m/s)";
+constexpr const char* kStableFeelLaw =
+    "the spectral radius of the sampled loop must be below 1 at 1.1 times the gate's stiffest force";
 constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
 // Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
@@ -227,13 +229,13 @@ bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLa
   return true;
 }
 
-// Finds the highest stable stiffness. The slow search for a limit runs only for a hand that is unstable at the wanted
-// stiffness or at the lowest limit found so far.
-StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
+// Finds the highest stable stiffness of a spring by this law, outside and above the speed limit. The slow search for a
+// limit runs only for a hand that is unstable at the wanted stiffness or at the lowest limit found so far.
+StableStiffness stable_stiffness(const HapticConfig& config, const DeviceSpec& spec, ContactLaw law, double wanted,
+                                 double limit_damping) {
   StableStiffness stable;
-  ContactLaw law = loop_law(config, admitted, spec);
-  law.stiffness = kGainMargin * admitted.tuning.wall_stiffness;
-  const double slow = law.free_damping, fast = slow + admitted.tuning.limit_damping;
+  law.stiffness = kGainMargin * wanted;
+  const double slow = law.free_damping, fast = slow + limit_damping;
   for (const double free_damping : {slow, fast}) {
     law.free_damping = free_damping;
     for_each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
@@ -245,6 +247,18 @@ StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTunin
     });
   }
   return stable;
+}
+
+// The feel is evaluated where the hold predicts the proxy, and only the damping outside the walls acts with it.
+void limit_feel(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate, ContactLaw law,
+                AdmittedTuning& admitted, const Limiter& limiter) {
+  const double stiffest = max_feel_stiffness(gate);
+  if (stiffest == 0.0) return;
+  double& scale = admitted.tuning.feel_scale;
+  limiter.limit(scale, admitted.tuning.wall_stiffness / stiffest, &HapticTuning::feel_scale, kFeelLaw);
+  law.damping = 0.0;
+  const StableStiffness stable = stable_stiffness(config, spec, law, scale * stiffest, 0.0);
+  limiter.limit(scale, stable.max / stiffest, &HapticTuning::feel_scale, kStableFeelLaw, stable.hand);
 }
 
 // Scales the device walls down if the wanted wall is softer than the device walls.
@@ -376,7 +390,9 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   limit_free_damping(config, spec, out, limiter);
   limit_damping_with_device_walls(config, spec, out, limiter);
   set_observed_damping(config, spec, out);
-  const StableStiffness stable = stable_stiffness(config, out, spec);
+  const ContactLaw wall = loop_law(config, out, spec);
+  const StableStiffness stable =
+      stable_stiffness(config, spec, wall, out.tuning.wall_stiffness, out.tuning.limit_damping);
   if (stable.max == 0.0 && !config.contact.allow_unstable) {
     if (out.hold == ContactHold::observer)
       return fall_back_to_half_sample(config, device, gate, kObserverLaw, stable.hand);
@@ -384,9 +400,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }
   limiter.limit(out.tuning.wall_stiffness, stable.max, &HapticTuning::wall_stiffness, kStableLaw, stable.hand);
-  const double feel = max_feel_stiffness(gate);
-  if (feel > 0.0)
-    limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, &HapticTuning::feel_scale, kFeelLaw);
+  limit_feel(config, spec, gate, wall, out, limiter);
   add_device_part(out, out.tuning.wall_stiffness, &HapticTuning::wall_stiffness, config.tuning.wall_stiffness,
                   usable_wall_stiffness(spec), " N/m");
   add_device_part(out, out.tuning.wall_damping, &HapticTuning::wall_damping, config.tuning.wall_damping,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <initializer_list>
 #include <limits>
 #include <set>
@@ -353,6 +354,53 @@ TEST_CASE("the feel is no stiffer than the wall that carries the proxy") {
   wanted.feel_scale = 4.0;
   const HapticTuning used = admitted(wanted, 1000.0, 0).tuning;
   CHECK(used.feel_scale * max_feel_stiffness(paper_gate()) <= used.wall_stiffness * (1.0 + 1e-12));
+}
+
+namespace {
+
+// Stiffness of a spring whose force comes `lag` [s] late, at which a bare lever just keeps swinging [N/m]. At the angular
+// frequency w, with the late damping B smoothed over Ts: -m w^2 + j w b + (K + j w B / (1 + j w Ts)) e^(-j w lag) = 0.
+double swinging_stiffness(const AxisModel& lever, double damping, double smoothing, double lag) {
+  const auto stiffness = [&](double w) {
+    const std::complex<double> j(0.0, 1.0), s = j * w;
+    return (lever.mass * w * w - s * lever.damping) * std::exp(s * lag) - s * damping / (1.0 + s * smoothing);
+  };
+  double low = 1e-3, high = 1.5 / lag;  // [rad/s] the imaginary part is negative at `low`
+  while (high - low > 1e-9 * high) {
+    const double mid = 0.5 * (low + high);
+    (stiffness(mid).imag() < 0.0 ? low : high) = mid;
+  }
+  return stiffness(low).real();
+}
+
+}  // namespace
+
+TEST_CASE("feel: outside the walls only the free damping acts, so a late feel is softer than the wall") {
+  HapticConfig config;
+  config.contact.hold = ContactHold::zero_order;
+  config.tuning.feel_scale = 4.0;
+  DeviceSpec spec;
+  for (const double rate : {250.0, 350.0, 500.0, 1000.0}) {
+    for (const int delay : {1, 2, 3, 8}) {
+      CAPTURE(rate);
+      CAPTURE(delay);
+      config.rate = rate;
+      spec.delay = delay;
+      const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
+      const double feel = used.tuning.feel_scale * max_feel_stiffness(paper_gate());
+      // A held force comes half a period late on average.
+      const auto swings_at = [&](const AxisModel& axis) {
+        return swinging_stiffness(axis, used.tuning.aisle_damping, config.estimator.smoothing,
+                                  (delay + 0.5) * period_s(config));
+      };
+      const double swings = std::min(swings_at(spec.axis_x), swings_at(spec.axis_y));
+      CHECK(feel <= swings / 1.05);
+      if (feel < used.tuning.wall_stiffness * (1.0 - 1e-9)) {
+        CHECK(feel == doctest::Approx(swings / 1.1).epsilon(0.03));
+        CHECK(limits_in_words(used).find("1.1 times the gate's stiffest force") != std::string::npos);
+      }
+    }
+  }
 }
 
 namespace {
