@@ -197,7 +197,7 @@ std::string Calibrator::set_numbers(glm::dvec2 travel, glm::dvec2 full_force) {
 }
 
 std::string Calibrator::find_button(LeverButton button, double seconds) {
-  std::array<int*, 3> numbers{&calibration_.press_button, &calibration_.lift_button, &calibration_.stop_button};
+  std::array<int*, 3> numbers{&calibration_.buttons.press, &calibration_.buttons.lift, &calibration_.buttons.stop};
   StickRig rig(driver_, tick_);
   const std::int64_t begin = rig.step().now_ns;
   std::uint64_t held = rig.latest().state.counts.buttons, pressed = 0;

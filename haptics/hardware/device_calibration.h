@@ -9,6 +9,7 @@
 #include <glm/mat2x2.hpp>
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/files/parameter.h"
 #include "haptics/hardware/report_scheduler.h"
 #include "haptics/hid/hid_port.h"
 #include "haptics/joystick/plant.h"
@@ -46,6 +47,43 @@ struct LeverAxisCalibration {
   double max_magnitude() const noexcept { return constant_limit > 0.0 ? constant_limit : 1.0; }
 };
 
+inline constexpr FileRange kCounts{-2147483648.0, 4294967295.0}, kMeasuredSign{-1.0, 1.0}, kCrossTalk{-1.0, 10.0};
+
+template <>
+inline constexpr Parameter<LeverAxisCalibration> kParameters<LeverAxisCalibration>[] = {
+    {&LeverAxisCalibration::low, "low", "low_counts", kCounts, "at the left or back stop"},
+    {&LeverAxisCalibration::centre, "centre", "centre_counts", kCounts, "at rest"},
+    {&LeverAxisCalibration::high, "high", "high_counts", kCounts, "at the right or forward stop"},
+    {&LeverAxisCalibration::travel, "travel", "travel_m", FileRange{0.0, 1.0}, "travel of the knob from stop to stop"},
+    {&LeverAxisCalibration::full_force, "full_force", "full_force_n", FileRange{0.0, 200.0},
+     "force at the knob at full magnitude"},
+    {&LeverAxisCalibration::constant_sign, "constant_sign", "constant_sign", kMeasuredSign,
+     "1: a positive force pushes right or forward; -1: left or back"},
+    {&LeverAxisCalibration::spring_sign, "spring_sign", "spring_sign", kMeasuredSign,
+     "1: a spring pulls to its centre; -1: pushes away from it"},
+    {&LeverAxisCalibration::spring_stiffness, "spring_stiffness", "spring_stiffness_n_per_m", FileRange{0.0, 1e5},
+     "strongest spring"},
+    {&LeverAxisCalibration::damper_sign, "damper_sign", "damper_sign", kMeasuredSign,
+     "1: a damper brakes the lever; -1: drives it"},
+    {&LeverAxisCalibration::damper_strength, "damper_strength", "damper_n_s_per_m", FileRange{0.0, 1e3},
+     "strongest damper"},
+    {&LeverAxisCalibration::spring_dead_band, "spring_dead_band", "spring_dead_band", FileRange{0.0, 10.0},
+     "its measured over its commanded width"},
+    {&LeverAxisCalibration::own_spring, "own_spring", "own_spring_n_per_m", FileRange{0.0, 1e5},
+     "centring by its motors; 0: none"},
+    {&LeverAxisCalibration::constant_limit, "constant_limit", "constant_limit", FileRange{0.0, 1.0},
+     "forces grow evenly up to this magnitude"},
+    {&LeverAxisCalibration::constant_slope, "constant_slope", "constant_slope", FileRange{0.01, 10.0},
+     "force per magnitude, over full_force_n"},
+    {&LeverAxisCalibration::constant_coupling, "constant_coupling", "constant_coupling", FileRange{-0.9, 0.9},
+     "motion of the other axis by a force, cancelled"},
+    {&LeverAxisCalibration::constant_cross_talk, "constant_cross_talk", "constant_cross_talk", kCrossTalk,
+     "motion of the other axis over this one's; -1: not measured"},
+    {&LeverAxisCalibration::spring_cross_talk, "spring_cross_talk", "spring_cross_talk", kCrossTalk, ""},
+    {&LeverAxisCalibration::damper_cross_talk, "damper_cross_talk", "damper_cross_talk", kCrossTalk, ""},
+};
+static_assert(describes_all(&LeverAxisCalibration::usage, &LeverAxisCalibration::handle));
+
 struct DeviceTiming {
   double input_interval = 0.0;   // [s] median time between readings; 0: not measured
   double output_interval = 0.0;  // [s] mean time between outputs
@@ -53,6 +91,33 @@ struct DeviceTiming {
   double jitter = 0.0;           // [s] 99th percentile of the input interval minus its median
   double restart_gap = 0.0;      // [s] silence of an effect each time it is renewed
 };
+
+inline constexpr FileRange kSeconds{0.0, 1.0};
+
+template <>
+inline constexpr Parameter<DeviceTiming> kParameters<DeviceTiming>[] = {
+    {&DeviceTiming::input_interval, "input_interval", "input_interval_s", kSeconds, "time between two readings"},
+    {&DeviceTiming::output_interval, "output_interval", "output_interval_s", kSeconds,
+     "time between two force commands"},
+    {&DeviceTiming::delay, "delay", "delay_s", kSeconds, "time from sending a force to its effect"},
+    {&DeviceTiming::jitter, "jitter", "jitter_s", kSeconds, "99 % of the readings are at most this late"},
+    {&DeviceTiming::restart_gap, "restart_gap", "restart_gap_s", kSeconds, "silence when an effect is renewed"},
+};
+static_assert(DescribesAll<DeviceTiming>);
+
+struct StickButtons {
+  int press = 0, lift = 0, stop = 0;  // numbers from 1; 0: none
+};
+
+inline constexpr FileRange kButton{0.0, 64.0};
+
+template <>
+inline constexpr Parameter<StickButtons> kParameters<StickButtons>[] = {
+    {&StickButtons::press, "press", "press", kButton, "pushes the knob down"},
+    {&StickButtons::lift, "lift", "lift", kButton, "lifts the ring"},
+    {&StickButtons::stop, "stop", "stop", kButton, "switches the motors off"},
+};
+static_assert(DescribesAll<StickButtons>);
 
 struct DeviceCalibration {
   std::uint16_t vendor = 0, product = 0;
@@ -65,7 +130,7 @@ struct DeviceCalibration {
   bool select_by_position = false;               // select has no motor: forces act along shift only
   bool holds_spring = false;                     // a spring without a force keeps the stick from centring by itself
   int effects_at_once = 0;                       // so many effects act at the same time, or more; 0: not measured
-  int press_button = 0, lift_button = 0, stop_button = 0;  // button numbers from 1; 0: none
+  StickButtons buttons;
 
   bool has_stops() const noexcept { return select.low != select.high && shift.low != shift.high; }
   bool has_travel() const noexcept { return select.travel > 0.0 && shift.travel > 0.0; }
@@ -83,6 +148,20 @@ struct DeviceCalibration {
     return shift.handle.mass > 0.0 && (select.handle.mass > 0.0 || select_by_position);
   }
 };
+
+// Properties of the effects besides their style.
+template <>
+inline constexpr Parameter<DeviceCalibration> kParameters<DeviceCalibration>[] = {
+    {&DeviceCalibration::select_by_position, "select_by_position", "select_by_position", FileRange{},
+     "select has no motor"},
+    {&DeviceCalibration::holds_spring, "holds_spring", "holds_spring", FileRange{},
+     "an idle spring keeps it from centring itself"},
+    {&DeviceCalibration::effects_at_once, "effects_at_once", "at_once", FileRange{0.0, 4.0}, "act at the same time"},
+};
+static_assert(describes_all(&DeviceCalibration::vendor, &DeviceCalibration::product, &DeviceCalibration::serial,
+                            &DeviceCalibration::name, &DeviceCalibration::select, &DeviceCalibration::shift,
+                            &DeviceCalibration::timing, &DeviceCalibration::style, &DeviceCalibration::springs_refused,
+                            &DeviceCalibration::dampers_refused, &DeviceCalibration::buttons));
 
 // Values for a stick that was not measured. They are on the safe side: a slow stick with a light, lightly damped
 // handle.

@@ -145,8 +145,8 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   reading.actuator_force = motor_force(state, reading.position);
   if (state.doubt == StickFault::none) watch_full_force(reading.position - position_, reading.actuator_force);
   position_ = reading.position;
-  reading.pressed_down = has_button(state.counts, calibration_.press_button);
-  reading.lifted = has_button(state.counts, calibration_.lift_button);
+  reading.pressed_down = has_button(state.counts, calibration_.buttons.press);
+  reading.lifted = has_button(state.counts, calibration_.buttons.lift);
   reading.stop = (state.sequence > 0 && is_stop_pressed(state.counts)) || halted_;
   if (drives_otherwise(state, reading)) {
     driver_.report(problem_of(watch_.fault(state.doubt != StickFault::none), state.doubt));
@@ -224,7 +224,7 @@ bool PidLever::has_button(const LeverCounts& counts, int button) const noexcept 
 }
 
 bool PidLever::is_stop_pressed(const LeverCounts& counts) noexcept {
-  const bool held = has_button(counts, calibration_.stop_button);
+  const bool held = has_button(counts, calibration_.buttons.stop);
   stop_.was_released = stop_.was_released || !held;
   return held && stop_.was_released;
 }

@@ -33,6 +33,11 @@ constexpr int place_of(std::size_t value) noexcept {
 
 }  // namespace
 
+const char* file_key(SignStyle style) noexcept {
+  static constexpr const char* kNames[] = {"magnitude", "direction"};
+  return kNames[static_cast<int>(style)];
+}
+
 PidEffect kind_of(StickEffect effect) noexcept {
   if (effect == StickEffect::spring) return PidEffect::spring;
   return effect == StickEffect::damper ? PidEffect::damper : PidEffect::constant;

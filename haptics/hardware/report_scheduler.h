@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <span>
 
+#include "haptics/files/parameter.h"
 #include "haptics/hardware/stick_command.h"
 #include "haptics/hid/pid_report.h"
 
@@ -29,6 +30,10 @@ using StickBlocks = std::array<int, kStickEffects>;  // effect block index per e
 
 // How the sign of a constant force is sent. Some firmware loses the sign of the magnitude while the effect plays.
 enum class SignStyle : std::uint8_t { magnitude, direction };
+const char* file_key(SignStyle style) noexcept;
+constexpr SignStyle last_value(SignStyle) {
+  return SignStyle::direction;
+}
 
 // How the effects name their axes and signs, as measured by the calibration. Aligned, because clang locks an atomic of
 // this size otherwise, and the haptic cycle must not.
@@ -37,6 +42,14 @@ struct alignas(4) StickStyle {
   SignStyle signs = SignStyle::magnitude;
   bool operator==(const StickStyle&) const = default;
 };
+
+template <>
+inline constexpr Parameter<StickStyle, AxisStyle, SignStyle> kParameters<StickStyle>[] = {
+    {&StickStyle::constants, "constants", "constants_by", FileRange{}, "how they name their axes"},
+    {&StickStyle::conditions, "conditions", "conditions_by", FileRange{}, ""},
+    {&StickStyle::signs, "signs", "signs_by", FileRange{}, "of constant forces"},
+};
+static_assert(DescribesAll<StickStyle>);
 
 // The reports that set an effect's parameters, in order; all values are zero afterwards.
 class EffectReports {

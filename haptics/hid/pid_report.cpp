@@ -111,6 +111,11 @@ bool flag_or(std::span<const std::uint8_t> report, const BitField& field, bool f
 
 }  // namespace
 
+const char* file_key(AxisStyle style) noexcept {
+  static constexpr const char* kNames[] = {"direction", "both", "bits"};
+  return kNames[static_cast<int>(style)];
+}
+
 HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settings) noexcept {
   const PidSetEffect& effect = pid.set_effect;
   const auto type = static_cast<std::size_t>(settings.effect);

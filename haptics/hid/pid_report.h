@@ -20,6 +20,10 @@ enum class AxisStyle : std::uint8_t {
   both,       // direction enable bit and axis bits
   bits        // axis bits alone
 };
+const char* file_key(AxisStyle style) noexcept;
+constexpr AxisStyle last_value(AxisStyle) {
+  return AxisStyle::bits;
+}
 
 struct PidEffectSettings {
   int block = kNoBlock;

@@ -36,7 +36,7 @@ KnownStick late_by(double delay) {  // [s] delay of the stick's response
   IdleHand idle_hand;
   KnownStick known{sidewinder_calibration(), EmulatedStick({}, idle_hand).report_descriptor()};
   known.calibration.timing.delay = delay;
-  known.calibration.stop_button = 3;
+  known.calibration.buttons.stop = 3;
   return known;
 }
 

@@ -49,9 +49,9 @@ inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stic
   }
   known.effects_at_once = 4;
   known.timing = {stick.input_interval, 0.001, stick.delay, 0.0};
-  known.press_button = 1;
-  known.lift_button = 2;
-  known.stop_button = 3;
+  known.buttons.press = 1;
+  known.buttons.lift = 2;
+  known.buttons.stop = 3;
   return known;
 }
 

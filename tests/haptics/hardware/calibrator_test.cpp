@@ -625,7 +625,7 @@ TEST_CASE("buttons: the pressed one counts, not a held one, and none is assigned
   };
   press(0b00001, 0b01001);
   CHECK(bench.calibrator.find_button(LeverButton::stop, 2.0) == "button 4");
-  CHECK(bench.calibrator.calibration().stop_button == 4);
+  CHECK(bench.calibrator.calibration().buttons.stop == 4);
   press(0, 0b1000);
   CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) == "button 4 is already assigned");
   press(0, 0b11000);

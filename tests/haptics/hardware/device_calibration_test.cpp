@@ -48,9 +48,9 @@ class RandomCalibration {
     if (flag()) made.effects_at_once = 1 + static_cast<int>(chance_() % 4);
     if (flag()) made.springs_refused = "springs \"" + std::to_string(chance_());
     if (flag()) made.dampers_refused = "dampers # " + std::to_string(chance_());
-    made.press_button = static_cast<int>(chance_() % 65);
-    made.lift_button = static_cast<int>(chance_() % 65);
-    made.stop_button = static_cast<int>(chance_() % 65);
+    made.buttons.press = static_cast<int>(chance_() % 65);
+    made.buttons.lift = static_cast<int>(chance_() % 65);
+    made.buttons.stop = static_cast<int>(chance_() % 65);
     return made;
   }
 
@@ -79,7 +79,7 @@ class RandomCalibration {
       axis.constant_slope = between(0.01, 10.0);
     }
     axis.damper_strength = between(0.0, 1e3);
-    axis.handle = {flag() ? 0.0 : between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
+    if (flag()) axis.handle = {between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
   }
 
   std::mt19937_64 chance_;
@@ -109,8 +109,8 @@ bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
          a.select_by_position == b.select_by_position && a.springs_refused == b.springs_refused &&
          a.dampers_refused == b.dampers_refused && a.vendor == b.vendor && a.product == b.product &&
          a.serial == b.serial && a.name == b.name && same(a.select, b.select) && same(a.shift, b.shift) &&
-         same(a.timing, b.timing) && a.press_button == b.press_button && a.lift_button == b.lift_button &&
-         a.stop_button == b.stop_button;
+         same(a.timing, b.timing) && a.buttons.press == b.buttons.press && a.buttons.lift == b.buttons.lift &&
+         a.buttons.stop == b.buttons.stop;
 }
 
 // Calibration of the paper's joystick as a stick with 140 mm travel, 20 N of force and the given timing.
@@ -180,13 +180,14 @@ TEST_CASE("invalid values are refused with file, line, key, value and range") {
   CHECK(refusal(changed("constant_sign", "constant_sign = 2")) ==
         "c.toml:12: constant_sign = 2: must be between -1 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
-        "c.toml:12: constant_sign = 0.5: must be a whole number between -1 and 1");
-  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:21: mass_kg = nan: must be between 0 and 1000") == 0);
+        "c.toml:12: constant_sign = 0.5: must be a whole number");
+  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:27: mass_kg = nan: must be between 0 and 1000") == 0);
   CHECK(refusal(changed("axis", "axis = \"q\"")) ==
         "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
   CHECK(refusal(changed("axis", "axis = \"y\"")).find("must differ from the axis of select") != std::string::npos);
   CHECK(refusal(changed("stop", "stop = 65")).find("stop = 65: must be between 0 and 64") != std::string::npos);
-  CHECK(refusal(changed("stop", "halt = 1")).find("stop is missing") != std::string::npos);
+  CHECK(refusal(changed("stop", "halt = 1")).find("halt") != std::string::npos);
+  CHECK(refusal(changed("high_counts", "")).find("high_counts is missing") != std::string::npos);
   CHECK(refusal("vendor = 1\n").find("product is missing") != std::string::npos);
   CHECK(refusal("what").find("not valid TOML") != std::string::npos);
 }
@@ -280,10 +281,9 @@ TEST_CASE("the builder's guide shows a calibration exactly as the program writes
   CHECK(known->shift.low == 32767.0);
   CHECK(known->select.handle.mass == 0.2483);
   CHECK(known->timing.output_interval == 0.001131);
-  CHECK(known->lift_button == 2);
+  CHECK(known->buttons.lift == 2);
   CHECK(missing_steps(*known, true, true).empty());  // so it has the key of every measurement
-  for (const char* key :
-       {"constant_coupling", "signs_by", "select_by_position", "holds_spring", "springs_refused", "dampers_refused"}) {
+  for (const char* key : {"springs_refused", "dampers_refused"}) {
     CAPTURE(key);
     CHECK(shown.find(key) == std::string::npos);
     CHECK(page.find('`' + std::string(key) + '`') != std::string::npos);

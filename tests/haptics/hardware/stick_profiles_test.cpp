@@ -85,8 +85,8 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config, bool is_swapped = 
   }
   result.seconds = bench.time() - begin;
   result.found = calibrator.calibration();
-  result.found.press_button = 1;
-  result.found.lift_button = 2;
+  result.found.buttons.press = 1;
+  result.found.buttons.lift = 2;
   return result;
 }
 
@@ -172,8 +172,8 @@ DeviceCalibration believed_calibration(const EmulatedStickConfig& config, const 
     axis.centre = measured.centre;
     axis.high = measured.high;
   }
-  known.press_button = 1;
-  known.lift_button = 2;
+  known.buttons.press = 1;
+  known.buttons.lift = 2;
   return known;
 }
 

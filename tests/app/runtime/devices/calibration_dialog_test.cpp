@@ -141,9 +141,9 @@ TEST_CASE("the calibration matches the user's actions and answers; every step is
   CHECK(found.shift.usage == 0x31);
   CHECK(found.select.travel == doctest::Approx(0.14));  // the user typed 140 mm
   CHECK(found.shift.full_force == 20.0);
-  CHECK(found.press_button == 3);  // the user pressed the button of bit 2, which is number 3
-  CHECK(found.lift_button == 0);
-  CHECK(found.stop_button == 0);
+  CHECK(found.buttons.press == 3);  // the user pressed the button of bit 2, which is number 3
+  CHECK(found.buttons.lift == 0);
+  CHECK(found.buttons.stop == 0);
   CHECK(rig.saved.size() == 7);  // saved once per step: range, numbers, polarity, timing, strength, handle, springs
   CHECK(rig.saved.front().has_stops());
   CHECK_FALSE(rig.saved.front().has_travel());
@@ -250,7 +250,7 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
   CHECK(missing_steps(found, true, true).empty());
   CHECK(second.asked.size() == 4);  // the questions are about timing, strength, handle and springs
   CHECK(second.asked.front().find("how fast the stick responds") != std::string::npos);
-  CHECK(found.press_button == 3);
+  CHECK(found.buttons.press == 3);
 }
 
 TEST_CASE("every step may be left out, and the question says what that costs") {
