@@ -32,6 +32,31 @@ int count_softenings(ReversalLimiter& limiter, double frequency, double span, do
   return count;
 }
 
+DeviceSpec late_spec() {
+  DeviceSpec spec = paper_spec();
+  spec.delay = 3;
+  return spec;
+}
+
+// The same at a wall of 5000 N/m, while the lever turns back every 25 ms. `width`: of each turn [m].
+int count_softenings_in_turns(ReversalLimiter& limiter, const std::function<double(int)>& width, int turns) {
+  int count = 0;
+  double y = 0.0;
+  for (int turn = 0; turn < turns; ++turn) {
+    const double from = y, to = y + (turn % 2 == 0 ? 1.0 : -1.0) * width(turn);
+    for (int ms = 1; ms <= 25; ++ms) {
+      y = from + (to - from) * 0.5 * (1.0 - std::cos(std::numbers::pi * ms / 25.0));
+      count += limiter.update({0.0, y}, true, 5000.0, 10.0, {0.0, 0.0});
+    }
+  }
+  return count;
+}
+
+// A dying swing that is struck again every six turns [m].
+double struck_width(int turn) {
+  return 2e-3 * std::pow(0.75, turn % 6);
+}
+
 // A sinusoidal force with which the load vibrates a lever that oscillates at a wall of 5000 N/m. `frequency` [Hz];
 // `amplitude` [N]; `lag` of the lever behind the force [periods of the vibration].
 struct Vibration {
@@ -93,27 +118,30 @@ TEST_CASE("a swing that dies away by itself softens nothing; one that does not, 
 // Measured in the campaign: a hand that lets go or strikes again gave a dying swing one wide last turn.
 TEST_CASE("a dying swing that is struck again some times is no chatter; a growing, uneven or lasting one is") {
   const auto softenings = [](const std::function<double(int)>& width, int turns) {
-    DeviceSpec spec = paper_spec();
-    spec.delay = 3;
-    ReversalLimiter limiter(spec, kLimiterPeriod);
-    int count = 0;
-    double y = 0.0;
-    for (int turn = 0; turn < turns; ++turn) {
-      const double from = y, to = y + (turn % 2 == 0 ? 1.0 : -1.0) * width(turn);
-      for (int ms = 1; ms <= 25; ++ms) {
-        y = from + (to - from) * 0.5 * (1.0 - std::cos(std::numbers::pi * ms / 25.0));
-        count += limiter.update({0.0, y}, true, 5000.0, 10.0, {0.0, 0.0});
-      }
-    }
-    return count;
+    ReversalLimiter limiter(late_spec(), kLimiterPeriod);
+    return count_softenings_in_turns(limiter, width, turns);
   };
-  CHECK(softenings([](int turn) { return 2e-3 * std::pow(0.75, turn % 6); }, 30) == 0);
-  CHECK(softenings([](int turn) { return 2e-3 * std::pow(0.75, turn % 6); }, 60) >= 3);
+  CHECK(softenings(struck_width, 30) == 0);
+  CHECK(softenings(struck_width, 60) >= 3);
   CHECK(softenings([](int turn) { return 20e-3 * std::pow(0.9, turn); }, 60) == 0);  // dies away for long
   // A closed cycle of four reversals: 1 + 0.4 = 2 * 0.7.
   CHECK(softenings([](int turn) { return 1e-3 * (turn % 2 == 1 ? 0.7 : turn % 4 == 0 ? 1.0 : 0.4); }, 60) >= 3);
   CHECK(softenings([](int turn) { return 1e-3 * std::pow(1.3, turn); }, 9) == 1);
   CHECK(softenings([](int turn) { return 1e-3 * (turn % 3 == 0 ? 0.7 : 1.0); }, 60) >= 3);
+}
+
+TEST_CASE("a swing that is struck again is judged from its own begin: after a rest, and after a reset") {
+  for (const bool resets : {false, true}) {
+    CAPTURE(resets);
+    ReversalLimiter limiter(late_spec(), kLimiterPeriod);
+    for (int swing = 0; swing < 5; ++swing) {
+      CHECK(count_softenings_in_turns(limiter, struck_width, 30) == 0);
+      if (resets)
+        limiter.reset();
+      else
+        CHECK(count_softenings(limiter, 1.0, 0.0, 1.0) == 0);
+    }
+  }
 }
 
 TEST_CASE("a wall that is too soft to sustain a swing is not softened for it: K < b w") {
