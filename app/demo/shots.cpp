@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/files/parameter.h"
+
 namespace gearshift::demo {
 namespace {
 

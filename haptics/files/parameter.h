@@ -20,6 +20,10 @@ struct Range {
   double min, max;
 };
 
+// Speeds are in km/h and revolutions per minute in files and on the screen, in m/s and rad/s in the code.
+inline constexpr double kKmhPerMps = 3.6;
+inline constexpr double kTurnPerMinute = std::numbers::pi / 30.0;  // [rad/s]
+
 // Converts a file's value to the struct's: value in the struct = value in the file * multiply / divide.
 struct FileUnit {
   double multiply = 1.0;
@@ -29,8 +33,8 @@ struct FileUnit {
 namespace file_unit {
 inline constexpr FileUnit kDegrees{std::numbers::pi / 180.0};
 inline constexpr FileUnit kMillimetres{1e-3};
-inline constexpr FileUnit kKmPerHour{1.0, 3.6};
-inline constexpr FileUnit kRpm{std::numbers::pi / 30.0};
+inline constexpr FileUnit kKmPerHour{1.0, kKmhPerMps};
+inline constexpr FileUnit kRpm{kTurnPerMinute};
 inline constexpr FileUnit kPerKrpm{1.0, 1000.0 * kRpm.multiply};
 inline constexpr FileUnit kPerKrpmSquared{1.0, kPerKrpm.divide* kPerKrpm.divide};
 }  // namespace file_unit

@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <type_traits>
 
@@ -38,8 +37,6 @@ inline constexpr int kNextGear = 100;
 inline constexpr int kPreviousGear = 101;
 inline constexpr int kAnyGear = -2;
 inline constexpr int kNoSlot = -1;
-inline constexpr double kKmhPerMps = 3.6;  // road speed is in km/h in files and on screen, in m/s in the code
-inline constexpr double kTurnPerMinute = std::numbers::pi / 30.0;  // [rad/s]
 
 enum class Side : int { back = -1, forward = 1 };
 const char* to_string(Side side) noexcept;

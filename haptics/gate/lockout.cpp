@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "haptics/files/number_text.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::haptics {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "app/cabin/sound/car_synth.h"
 #include "app/cabin/sound/synth.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::cabin {
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/cabin/sound/car_synth.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::cabin {
 

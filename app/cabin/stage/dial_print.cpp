@@ -9,6 +9,7 @@
 
 #include "app/cabin/stage/instruments.h"
 #include "app/cabin/stage/mesh_parts.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::cabin {
 namespace {

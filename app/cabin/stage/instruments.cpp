@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::cabin {

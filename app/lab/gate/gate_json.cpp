@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/lab/gate/gate_report.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/lockout.h"
 
 namespace gearshift::lab {

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "app/lessons/assessment/lever_path_text.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::lessons {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/lessons/assessment/step_order.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::lessons {
 namespace {

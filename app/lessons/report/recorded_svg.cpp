@@ -12,6 +12,7 @@
 #include "app/base/chart.h"
 #include "app/base/colours.h"
 #include "app/lessons/report/gate_outline.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate_description.h"
 
 namespace gearshift::lessons {

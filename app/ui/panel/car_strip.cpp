@@ -7,6 +7,7 @@
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::ui {

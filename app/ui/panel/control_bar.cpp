@@ -11,6 +11,7 @@
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::ui {
 namespace {

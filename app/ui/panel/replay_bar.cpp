@@ -15,6 +15,7 @@
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/plot_area.h"
 #include "app/ui/panel/text_lines.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::ui {
 namespace {

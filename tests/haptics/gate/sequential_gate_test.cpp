@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/gate/gear_selector.h"
 #include "haptics/gate/lockout.h"

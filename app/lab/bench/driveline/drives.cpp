@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/lab/bench/driveline/driveline_rig.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::lab {
 namespace {

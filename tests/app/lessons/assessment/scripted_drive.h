@@ -12,6 +12,7 @@
 
 #include "app/lessons/assessment/lesson_run.h"
 #include "app/vehicle/car_load.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
 

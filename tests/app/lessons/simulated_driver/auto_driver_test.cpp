@@ -11,6 +11,7 @@
 
 #include "app/lessons/assessment/lesson_run.h"
 #include "app/vehicle/car_load.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/loop/simulated_run.h"
 #include "tests/app/lessons/simulated_driver/lessons.h"
