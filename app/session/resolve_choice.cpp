@@ -1,19 +1,12 @@
 #include "app/session/resolve_choice.h"
 
 #include <algorithm>
-#include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "app/base/assets_path.h"
-#include "app/base/program_name.h"
-#include "app/lessons/simulated_driver/auto_driver.h"
-#include "app/session/preset_store.h"
-#include "haptics/device/hand.h"
-#include "haptics/gate/gate_compiler.h"
-#include "haptics/joystick/kinematics.h"
+#include "haptics/gate/gate.h"
 
 namespace gearshift::session {
 namespace {
@@ -58,35 +51,7 @@ vehicle::CarSpec read_shipped_car(const std::string& name) {
   return vehicle::read_car(base::find_asset("cars", name));
 }
 
-runtime::DriverFunction automatic_driver(const runtime::RuntimeConfig& runtime, const vehicle::CarSpec& car,
-                                         const lessons::Lesson* lesson) {
-  const haptics::YokeGeometry& yoke = runtime.preset.lever.yoke;
-  lessons::AutoDriverConfig config;
-  config.gate = haptics::compile_gate(runtime.layout, haptics::workspace_half_extent(yoke), yoke.radius);
-  config.car = car;
-  config.lesson = lesson ? *lesson : lessons::tour_lesson(car, config.gate);
-  config.again = lesson == nullptr;
-  config.seed = runtime.seed;
-  config.period = haptics::period_s(runtime.preset.haptics);
-  const auto driver = std::make_shared<lessons::AutoDriver>(config);
-  return [driver](const vehicle::DriveSample& sample) { return driver->act(sample); };
-}
-
 }  // namespace
-
-haptics::Preset resolve_preset(const SessionChoice& choice) {
-  haptics::Preset preset = haptics::read_preset(preset_file(choice.preset).string());
-  if (choice.haptics) preset.haptics = *choice.haptics;
-  if (choice.hand.empty() || choice.hand == kAutomaticHand) return preset;
-  const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(choice.hand);
-  if (!hand || hand->stiffness < haptics::kMinLeadingStiffness)
-    throw std::invalid_argument(fmt::format(
-        "\"{}\" is not a valid hand: use light, grip, arm, \"{}\" or M,B,K (kg, N s/m and N/m, with a stiffness of at "
-        "least {:g} N/m)",
-        choice.hand, kAutomaticHand, haptics::kMinLeadingStiffness));
-  preset.lever.hand = *hand;
-  return preset;
-}
 
 ResolvedCar resolve_car(const SessionChoice& choice) {
   ResolvedCar chosen;
@@ -96,33 +61,6 @@ ResolvedCar resolve_car(const SessionChoice& choice) {
   if (chosen.gate.empty()) chosen.gate = chosen.spec ? chosen.spec->gate : "paper";
   chosen.layout = read_gate(chosen.gate);
   return chosen;
-}
-
-runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const ResolvedCar& chosen,
-                                           const lessons::Lesson* lesson) {
-  runtime::RuntimeConfig config;
-  config.preset = resolve_preset(choice);
-  config.layout = chosen.layout;
-  config.car = chosen.spec;
-  config.clock = choice.clock;
-  config.seed = choice.seed;
-  config.pedal_timing = choice.pedal_timing;
-  config.program = base::program_name();
-  if (lesson) {
-    config.start = lessons::car_start(lesson->start);
-    config.pedals.hand_brake = lesson->start.hand_brake;
-  }
-  if (choice.stick) config.lever = [stick = choice.stick](double period) { return stick->lever(period); };
-  if (choice.hand != kAutomaticHand) return config;
-  if (choice.stick)
-    throw std::invalid_argument("hand \"by itself\" works only with the simulated lever, not with a stick");
-  if (config.layout.sequential_gears > 0)
-    throw std::invalid_argument(
-        "hand \"by itself\" needs a gate with a slot for each gear, and this one is sequential; choose another gate or "
-        "another hand");
-  if (!config.car) throw std::invalid_argument("hand \"by itself\" needs a car; choose a car or another hand");
-  config.driver = automatic_driver(config, *config.car, lesson);
-  return config;
 }
 
 SessionChoice with_gate(SessionChoice choice, const std::string& gate) {

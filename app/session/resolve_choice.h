@@ -1,21 +1,18 @@
-// Resolves the names in a SessionChoice to a preset, a car and a gate, and makes the runtime's configuration of them.
+// Resolves the names of a car and a gate in a SessionChoice, and makes them fit each other and a lesson.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/lessons/assessment/lesson.h"
 #include "app/session/session_choice.h"
 #include "app/vehicle/car_spec.h"
 #include "haptics/gate/gate_layout.h"
-#include "haptics/loop/preset.h"
 
 namespace gearshift::session {
 
 inline constexpr std::string_view kDefaultCar = "hatchback";
-
-// Throws FileError or std::invalid_argument with a one-sentence message.
-haptics::Preset resolve_preset(const SessionChoice& choice);
 
 struct ResolvedCar {
   std::string car, gate;                 // same kinds of names as in SessionChoice, but never empty
@@ -26,12 +23,6 @@ struct ResolvedCar {
 // Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
 // std::runtime_error with a one-sentence message.
 ResolvedCar resolve_car(const SessionChoice& choice);
-
-// `lesson`: defines the car's state at the start. If it is null, the car is parked. The hand "by itself" drives the
-// lesson or, without a lesson, shifts through all gears again and again. Throws FileError or std::invalid_argument with
-// a one-sentence message.
-runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const ResolvedCar& chosen,
-                                           const lessons::Lesson* lesson);
 
 // Returns the choice with its gate replaced. Keeps the car if it has every gear of the new gate. Otherwise the choice
 // gets the first shipped car that has every gear, or kNoCar if there is no such car. Throws like resolve_car().
