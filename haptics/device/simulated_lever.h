@@ -112,7 +112,7 @@ class SimulatedLever final : public HapticDevice {
   void place(glm::dvec2 position, glm::dvec2 velocity = glm::dvec2(0.0)) noexcept;
 
  private:
-  // One joint along its arc. The handle and what moves with it form one axis, which is stepped exactly. The mass of an
+  // One joint along its arc. The handle and the hand that moves with it form one axis, which is stepped exactly. The mass of an
   // elastic hand is a second one: each is stepped exactly while the other stands still, in turns of `turn` seconds (G.
   // Strang. On the Construction and Comparison of Difference Schemes. 1968), so the error falls with the turn's square.
   struct Axis {
@@ -164,7 +164,8 @@ class SimulatedLever final : public HapticDevice {
   double measure(double force) noexcept;
 
   SimulatedLeverConfig config_;
-  HandImpedance attached_;  // what moves with the handle: the hand, or the fingers and the grip of an elastic one
+  HandImpedance
+      attached_;  // the part of the hand that moves with the handle: the hand, or an elastic one's fingers and grip
   HandDriver& driver_;
   DeviceSpec spec_;
   std::uint64_t period_ns_;

@@ -46,7 +46,7 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 // means that a hand is on the lever.
 constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
-constexpr double kMinFriction = 0.02;        // [N] less is not worth a word
+constexpr double kMinFriction = 0.02;        // [N] less is not reported
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000, kPeakTime = 100'000'000;  // [ns]
 constexpr std::int64_t kOffTime = 100'000'000;  // [ns] for all effects to be stopped

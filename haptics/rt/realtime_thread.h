@@ -16,6 +16,7 @@ enum class RealtimePolicy {
   best_effort  // start anyway and report why it is not real-time
 };
 
+// No file, option or panel sets these values, so they have no table of parameters (haptics/files/parameter.h).
 struct RealtimeConfig {
   std::int64_t period_ns = 1'000'000;  // [ns] > 0
   RealtimePolicy policy = RealtimePolicy::best_effort;

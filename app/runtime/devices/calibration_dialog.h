@@ -29,8 +29,7 @@ struct CalibrationTimes {
   double button = 6.0;  // time to press a button
 };
 
-// Runs the missing steps in order. `ability`: of the stick. Exceptions from `ask` and `save`
-// are passed on to the caller.
+// Runs the missing steps in order. `ability`: what the stick can do. Passes on exceptions from `ask` and `save`.
 void calibrate(haptics::Calibrator& calibrator, const haptics::PidAbility& ability, const CalibrationDialog& dialog,
                const CalibrationTimes& times = {});
 

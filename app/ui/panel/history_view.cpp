@@ -43,7 +43,7 @@ void draw_driving_errors(const lessons::LessonResult& result, std::int64_t shift
     const bool costs = error.points > 0.0 && lessons::is_graded(result);
     const std::string cost = costs ? fmt::format(" (-{:.1f})", error.points) : std::string();
     put_wrapped(lessons::error_sentence(error) + cost, severity_colour(error.severity));
-    if (needs_advice(error, advised)) put_wrapped(lessons::error_advice(error.kind), ink::kAccent);
+    if (const std::string_view advice = take_advice(error, advised); !advice.empty()) put_wrapped(advice, ink::kAccent);
   }
 }
 

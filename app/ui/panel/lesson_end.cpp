@@ -59,13 +59,14 @@ bool is_listed(const lessons::LessonResult& result, const lessons::DrivingError&
   return error.points > 0.0 || (!lessons::is_graded(result) && error.severity != lessons::Severity::note);
 }
 
-void draw_driving_error(const lessons::LessonResult& result, const lessons::DrivingError& error, bool with_advice) {
+void draw_driving_error(const lessons::LessonResult& result, const lessons::DrivingError& error,
+                        std::string_view advice) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   put(fmt::format("{:.1f} s", error.time - result.begin), ink::kSoft, engine::UiFont::small);
   ImGui::TableNextColumn();
   put_wrapped(lessons::error_sentence(error), ink::kText, engine::UiFont::small);
-  if (with_advice) put_wrapped(lessons::error_advice(error.kind), ink::kAccent);
+  if (!advice.empty()) put_wrapped(advice, ink::kAccent);
   ImGui::TableNextColumn();
   if (error.points > 0.0 && lessons::is_graded(result))
     put(fmt::format("-{:.1f}", error.points), severity_colour(error.severity), engine::UiFont::small);
@@ -103,7 +104,7 @@ void draw_driving_errors(const lessons::LessonResult& result) {
   if (ended) draw_end(result);
   ErrorKinds advised;
   for (const lessons::DrivingError& error : result.errors) {
-    if (listed(error)) draw_driving_error(result, error, needs_advice(error, advised));
+    if (listed(error)) draw_driving_error(result, error, take_advice(error, advised));
   }
   ImGui::EndTable();
 }

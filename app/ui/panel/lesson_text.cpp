@@ -14,6 +14,7 @@
 #include "app/ui/panel/format_value.h"
 #include "app/ui/panel/palette.h"
 #include "haptics/files/ascii.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::ui {
 
@@ -49,12 +50,11 @@ ImU32 severity_colour(lessons::Severity severity) {
   return ink::kSoft;
 }
 
-bool needs_advice(const lessons::DrivingError& error, ErrorKinds& advised) {
+std::string_view take_advice(const lessons::DrivingError& error, ErrorKinds& advised) {
   const std::size_t kind = static_cast<std::size_t>(error.kind);
-  if (error.severity == lessons::Severity::note || lessons::error_advice(error.kind).empty() || advised[kind])
-    return false;
+  if (error.severity == lessons::Severity::note || advised[kind]) return {};
   advised.set(kind);
-  return true;
+  return lessons::error_advice(error.kind);
 }
 
 std::string format_gears(const lessons::ShiftRecord& shift) {

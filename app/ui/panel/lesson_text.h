@@ -19,9 +19,9 @@ std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or w
 ImU32 verdict_colour(const lessons::LessonResult& result);
 ImU32 severity_colour(lessons::Severity severity);
 
-// True if advice is to be shown below the error: not for a note, and once per kind. Then adds the kind to `advised`.
+// Returns the advice to show below the error: none for a note, and once per kind. Adds the kind to `advised`.
 using ErrorKinds = std::bitset<lessons::kErrorKindCount>;
-bool needs_advice(const lessons::DrivingError& error, ErrorKinds& advised);
+std::string_view take_advice(const lessons::DrivingError& error, ErrorKinds& advised);
 
 std::string format_gears(const lessons::ShiftRecord& shift);  // "1 → 2"
 std::string format_rpm(double speed);                         // speed [rad/s]
