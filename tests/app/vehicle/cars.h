@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/vehicle/car_spec.h"
+#include "app/vehicle/driveline.h"
 #include "tests/support/gates.h"
 
 namespace gearshift::test {
@@ -19,6 +20,10 @@ inline vehicle::CarSpec shipped_car(const std::string& name) {
 
 inline haptics::Gate gate_of(const vehicle::CarSpec& car) {
   return shipped_gate(car.gate);
+}
+
+inline double slip(const vehicle::Driveline& line) {  // [rad/s]
+  return line.state().engine_speed - line.state().shaft_speed;
 }
 
 inline double ratio_of(const vehicle::CarSpec& car, int gear) {

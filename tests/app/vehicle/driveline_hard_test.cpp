@@ -10,11 +10,13 @@
 
 #include "app/lab/bench/driveline/driveline_rig.h"
 #include "app/lab/bench/driveline/drives.h"
+#include "tests/app/vehicle/cars.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::lab;
 using namespace gearshift::vehicle;
 using doctest::Approx;
+using gearshift::test::slip;
 
 namespace {
 

@@ -5,10 +5,12 @@
 #include <doctest/doctest.h>
 
 #include "app/lab/bench/driveline/driveline_rig.h"
+#include "tests/app/vehicle/cars.h"
 
 using namespace gearshift::lab;
 using namespace gearshift::vehicle;
 using doctest::Approx;
+using gearshift::test::slip;
 
 namespace {
 

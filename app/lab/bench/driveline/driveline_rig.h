@@ -39,10 +39,6 @@ inline vehicle::DrivelineInput pedals(int gear, double throttle, double clutch) 
   return in;
 }
 
-inline double slip(const vehicle::Driveline& line) {
-  return line.state().engine_speed - line.state().shaft_speed;
-}
-
 inline void drive(vehicle::Driveline& line, const vehicle::DrivelineInput& in, double seconds, double step = 0.001) {
   for (int i = 0; i < std::lround(seconds / step); ++i) line.step(in, step);
 }
