@@ -1,5 +1,6 @@
 #include "haptics/contact/proxy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -21,6 +22,11 @@ double distance2(dvec2 a, dvec2 b) noexcept {
   return glm::dot(d, d);
 }
 
+// Beyond this depth a slot's aisle is the only free space.
+double mouth_end(const Gate& gate) noexcept {
+  return gate.half_aisle + gate.chamfer + kEdgeTolerance;
+}
+
 // Target of the proxy's next straight move: the point nearest to the lever in any aisle or mouth that contains the
 // proxy.
 dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
@@ -36,7 +42,7 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
   const Column& column = gate.column[static_cast<std::size_t>(nearest_column(gate, p.x))];
   const AisleBox vertical = vertical_aisle(gate, passage, column);
   if (contains(vertical, p)) consider(nearest(vertical, lever));
-  if (best2 == 0.0 || std::abs(p.y) > gate.half_aisle + gate.chamfer + kEdgeTolerance) return best;
+  if (best2 == 0.0 || std::abs(p.y) > mouth_end(gate)) return best;
 
   const AisleBox neutral = neutral_aisle(gate, passage);
   if (contains(neutral, p)) consider(nearest(neutral, lever));
@@ -68,18 +74,23 @@ Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
 
 Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 lever, double hand_over) noexcept {
   if (!is_finite(lever)) return proxy;
+  dvec2 to = next_leg(gate, passage, proxy.position, lever);
+  // The most frequent case, a free lever that stays in its aisle, needs no distances: the proxy moves as far as the lever.
+  if (to == lever && proxy.position == proxy.lever) return {to, lever};
+
   double budget = glm::distance(lever, proxy.lever) + hand_over;
   proxy.lever = lever;
-  for (int leg = 0; leg < kMaxLegs && proxy.position != lever; ++leg) {
-    const dvec2 to = next_leg(gate, passage, proxy.position, lever);
+  for (int leg = 1; to != proxy.position; ++leg) {
     const double length = glm::distance(to, proxy.position);
     if (length > budget) {
       proxy.position += (to - proxy.position) * (budget / length);
       break;
     }
+    const bool in_one_aisle = std::min(std::abs(proxy.position.y), std::abs(to.y)) > mouth_end(gate);
     proxy.position = to;
-    if (length < kEdgeTolerance) break;
+    if (in_one_aisle || length < kEdgeTolerance || to == lever || leg == kMaxLegs) break;
     budget -= length;
+    to = next_leg(gate, passage, proxy.position, lever);
   }
   return proxy;
 }

@@ -108,6 +108,9 @@ bool ReversalLimiter::is_dying(const Axis& axis) noexcept {
 // w) while all walls are passive, and a wider swing gets its energy from a wall. A vibration along one axis moves the
 // tip along both axes, because the yoke couples them in the corners.
 void ReversalLimiter::track_vibration(glm::dvec2 vibration) noexcept {
+  const bool is_pending = axis_[0].pending_turns + axis_[1].pending_turns > 0;
+  const bool is_same = vibration.x == vibration_[0].farthest && vibration.y == vibration_[1].farthest;
+  if (is_same && !is_pending) return;  // in nearly every cycle
   const bool is_over = time_ - last_vibration_turn_ > kVibrationTimeout;
   for (Axis& axis : axis_) axis.pending_turns = is_over ? 0 : axis.pending_turns;
   for (int i = 0; i < 2; ++i) {

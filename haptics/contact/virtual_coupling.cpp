@@ -56,9 +56,10 @@ ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Pas
   const Proxy ahead = move_proxy(gate, passage, proxy, predicted, 0.0);
   const dvec2 now = motion.position - proxy.position;
   const dvec2 then = predicted - ahead.position;
+  ContactForce out{{0.0, 0.0}, 0.5 * (proxy.position + ahead.position)};
+  if (now == dvec2(0.0) && then == dvec2(0.0)) return out;  // without the square roots
   const double depth_now = glm::length(now);
   const double depth_then = glm::length(then);
-  ContactForce out{{0.0, 0.0}, 0.5 * (proxy.position + ahead.position)};
   if (depth_now == 0.0 && depth_then == 0.0) return out;
 
   out.force = -coupling.stiffness * mean_penetration(now, then, depth_now, depth_then, step);

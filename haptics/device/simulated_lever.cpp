@@ -157,14 +157,15 @@ void SimulatedLever::advance_period() noexcept {
 void SimulatedLever::update_hand() noexcept {
   const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
   const double drift = static_cast<double>(drift_ns_) * 1e-9;
-  target_ = driver_.next(static_cast<double>(periods_) * period_ + drift, here);
+  const HandTarget target = driver_.next(static_cast<double>(periods_) * period_ + drift, here);
+  const bool rests = target.position == target_.position && target.velocity == target_.velocity;
+  if (!rests || periods_ == 0 || !is_finite(target.position)) wanted_ = arc_target(target);
+  target_ = target;
 
   const glm::dvec2 push = is_finite(target_.push) ? glm::clamp(target_.push, -kMaxPush, kMaxPush) : glm::dvec2(0.0);
   glm::dvec2 drive = arc_force(pose_, push);
-  if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0) {
-    const ArcTarget wanted = arc_target(target_);
-    drive += config_.hand.stiffness * wanted.position + config_.hand.damping * wanted.velocity;
-  }
+  if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0)
+    drive += config_.hand.stiffness * wanted_.position + config_.hand.damping * wanted_.velocity;
   x_.hand_drive = drive.x;
   y_.hand_drive = drive.y;
 }
@@ -302,11 +303,14 @@ void SimulatedLever::update_pose() noexcept {
 }
 
 void SimulatedLever::sample() noexcept {
-  const PlanePose read_pose = plane_pose(x_.encoder.read_tangent(), y_.encoder.read_tangent());
+  const double a = x_.encoder.read_tangent(), b = y_.encoder.read_tangent();
+  if (a != read_pose_.a || b != read_pose_.b || reading_.sequence == 0) {
+    read_pose_ = plane_pose(a, b);
+    reading_.position = plane_position(read_pose_, config_.yoke.radius);
+  }
   const glm::dvec2 measured{measure(hand_force(x_)), measure(hand_force(y_))};
   ++reading_.sequence;
   reading_.time_ns = last_ns_ + drift_ns_;
-  reading_.position = plane_position(read_pose, config_.yoke.radius);
   reading_.hand_force = plane_force(pose_, measured);
   reading_.pressed_down = target_.pressed_down;
   reading_.lifted = target_.lifted;

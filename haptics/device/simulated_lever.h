@@ -164,8 +164,7 @@ class SimulatedLever final : public HapticDevice {
   double measure(double force) noexcept;
 
   SimulatedLeverConfig config_;
-  HandImpedance
-      attached_;  // the part of the hand that moves with the handle: the hand, or an elastic one's fingers and grip
+  HandImpedance attached_;  // rigidly moves with the handle: the hand, or the fingers and grip of an elastic one
   HandDriver& driver_;
   DeviceSpec spec_;
   std::uint64_t period_ns_;
@@ -175,8 +174,10 @@ class SimulatedLever final : public HapticDevice {
   double tan_theta_limit_, tan_phi_limit_;
   double reach_;  // [m] largest distance of the tip from the centre; reached in the corners
   Axis x_, y_;
-  PlanePose pose_;  // pose at the true angles, without encoder quantisation
+  PlanePose pose_;       // pose at the true angles, without encoder quantisation
+  PlanePose read_pose_;  // pose of the last reading
   HandTarget target_;
+  ArcTarget wanted_;  // of target_
   GaussianNoise noise_;
 
   std::array<MotorCommand, kMaxSimulatedDelay + 1> queue_{};  // delay line of commands, indexed by period number

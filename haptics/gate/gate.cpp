@@ -5,15 +5,6 @@
 
 namespace gearshift::haptics {
 
-int nearest_column(const Gate& gate, double x) noexcept {
-  int nearest = 0;
-  for (int i = 1; i < gate.column_count; ++i) {
-    const double distance = std::abs(column_of(gate, i).center - x);
-    if (distance < std::abs(column_of(gate, nearest).center - x)) nearest = i;
-  }
-  return nearest;
-}
-
 bool has_gear(const Gate& gate, int gear) noexcept {
   if (is_sequential(gate)) return gear >= kReverseGear && gear <= gate.sequential_gears;
   return gear == kNeutralGear || slot_of_gear(gate, gear) != kNoSlot;

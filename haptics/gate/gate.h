@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -137,8 +138,19 @@ inline const Slot& slot_of(const Gate& gate, int index) noexcept {
   return gate.slot[static_cast<std::size_t>(index)];
 }
 
-// Index of the column whose centre is nearest to x.
-int nearest_column(const Gate& gate, double x) noexcept;
+// Index of the column whose centre is nearest to x. Inline, because the haptic cycle calls it several times.
+inline int nearest_column(const Gate& gate, double x) noexcept {
+  int nearest = 0;
+  double least = std::abs(gate.column[0].center - x);
+  for (int i = 1; i < gate.column_count; ++i) {
+    const double distance = std::abs(column_of(gate, i).center - x);
+    if (distance < least) {
+      nearest = i;
+      least = distance;
+    }
+  }
+  return nearest;
+}
 
 inline bool is_sequential(const Gate& gate) noexcept {
   return gate.sequential_gears > 0;

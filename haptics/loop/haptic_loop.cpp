@@ -190,8 +190,8 @@ void HapticLoop::follow_lever() noexcept {
 
 // Applies the load's depth limit in the lever's current slot. A limit never moves the lever.
 void HapticLoop::limit_depth() noexcept {
-  const int slot = slot_at(gate_, proxy_.position);
-  if (slot == kNoSlot || slot != load_output_.limited_slot) return;
+  const int slot = load_output_.limited_slot;
+  if (slot == kNoSlot || slot != slot_at(gate_, proxy_.position)) return;
   const double depth = std::abs(proxy_.position.y);
   passage_.limited_slot = slot;
   passage_.depth_min = std::min(load_output_.depth_min, depth);
@@ -328,7 +328,8 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const Sent due = cycle_ >= age ? sent_[(cycle_ - age) % sent_.size()] : Sent{};
   const dvec2 expected = due.force + device_wall_force(due.walls);
   // [N] change of the wall force within a period
-  const double moves = device_wall_stiffness_ * period_ * glm::length(motion_.velocity);
+  const double moves =
+      device_wall_stiffness_ > 0.0 ? device_wall_stiffness_ * period_ * glm::length(motion_.velocity) : 0.0;
   const bool falls_short = motion_.fresh && glm::length(expected + actuator_force_) > kShortfall + moves;
   sent_[cycle_ % sent_.size()] = {command.force, walls_};
   unsaturated_time_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_time_ + period_;
@@ -360,13 +361,19 @@ void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   if (may_rearm && healthy_time_ > kRearmAfter) arm();
 }
 
+// Fills the sample in place, because it is too large to copy in every cycle.
 void HapticLoop::publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
-  published_ = {deadline_ns, skipped, reading_, controls_, tuning_, command_, make_snapshot(deadline_ns)};
+  published_.deadline_ns = deadline_ns;
+  published_.skipped = skipped;
+  published_.reading = reading_;
+  published_.controls = controls_;
+  published_.tuning = tuning_;
+  published_.command = command_;
+  fill_snapshot(published_.out, deadline_ns);
   ++cycle_;
 }
 
-HapticSnapshot HapticLoop::make_snapshot(std::int64_t deadline_ns) const noexcept {
-  HapticSnapshot out;
+void HapticLoop::fill_snapshot(HapticSnapshot& out, std::int64_t deadline_ns) const noexcept {
   out.cycle = cycle_;
   out.time_ns = deadline_ns;
   out.lever = motion_.position;
@@ -386,14 +393,10 @@ HapticSnapshot HapticLoop::make_snapshot(std::int64_t deadline_ns) const noexcep
   out.guard = guard_.state();
   out.fault = guard_.fault();
   const double depth = penetration();
-  const auto raise = [&out](std::uint32_t flag, bool on) { out.flags |= on ? flag : 0u; };
-  raise(kFlagContact, depth > 0.0);
-  raise(kFlagSaturated, unsaturated_time_ < kSaturationHold);
-  raise(kFlagOverPush, is_over_push_);
-  raise(kFlagPushEstimated, !is_push_measured_);
-  raise(kFlagGhost, depth > config_.ghost_offset);
-  raise(kFlagFresh, motion_.fresh);
-  return out;
+  const auto flag = [](std::uint32_t bit, bool on) { return on ? bit : 0u; };
+  out.flags = flag(kFlagContact, depth > 0.0) | flag(kFlagSaturated, unsaturated_time_ < kSaturationHold) |
+              flag(kFlagOverPush, is_over_push_) | flag(kFlagPushEstimated, !is_push_measured_) |
+              flag(kFlagGhost, depth > config_.ghost_offset) | flag(kFlagFresh, motion_.fresh);
 }
 
 }  // namespace gearshift::haptics

@@ -110,7 +110,7 @@ class HapticLoop {
   void watch_chatter() noexcept;
   void watch_guard(std::int64_t skipped) noexcept;
   void publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
-  HapticSnapshot make_snapshot(std::int64_t deadline_ns) const noexcept;
+  void fill_snapshot(HapticSnapshot& out, std::int64_t deadline_ns) const noexcept;
 
   HapticConfig config_;
   AdmittedTuning admitted_;

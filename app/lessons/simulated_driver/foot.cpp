@@ -19,8 +19,12 @@ void Foot::move_to(double goal, double rate) noexcept {
 double Foot::step(double dt) noexcept {
   value_ += std::clamp(goal_ - value_, -rate_ * dt, rate_ * dt);
   if (noise_ <= 0.0 || value_ <= 0.0 || value_ >= 1.0) return value_;
-  const double keep = std::exp(-dt / kTremorTime);
-  tremor_ = keep * tremor_ + noise_ * std::sqrt(1.0 - keep * keep) * random_.next();
+  if (dt != dt_) {
+    dt_ = dt;
+    keep_ = std::exp(-dt / kTremorTime);
+    spread_ = noise_ * std::sqrt(1.0 - keep_ * keep_);
+  }
+  tremor_ = keep_ * tremor_ + spread_ * random_.next();
   return std::clamp(value_ + tremor_, 0.0, 1.0);
 }
 

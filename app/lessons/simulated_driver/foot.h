@@ -26,6 +26,7 @@ class Foot {
   haptics::GaussianNoise random_;
   double value_ = 0.0, goal_ = 0.0, rate_ = 1.0;
   double tremor_ = 0.0;
+  double dt_ = -1.0, keep_ = 0.0, spread_ = 0.0;  // [s] last step; what it keeps of the tremor and what it adds
 };
 
 }  // namespace gearshift::lessons
