@@ -72,8 +72,10 @@ Complex hold(double omega, double period) {
 }
 
 // Standard deviation of a sinusoid's amplitude due to encoder quantisation. For amplitude A and quantum q, rounding adds
-// (2 q / pi) sum over n of J1(2 pi n A / q) / n cos(n phase) to the fundamental. J1 decreases as sqrt(q / (pi^2 n A)), and
-// the phases depend on the amplitude in quanta, so their RMS is q sqrt(q / A) sqrt(2 zeta(3)) / pi^2.
+// (2 q / pi) sum over n of J1(2 pi n A / q) / n cos(2 pi n c) to the fundamental, where c is the place of the swing's centre
+// in its count. J1 is about sqrt(q / (pi^2 n A)) cos(2 pi n A / q - 3 pi / 4), whose mean square is q / (2 pi^2 n A) over
+// all amplitudes. With the centre on an edge or in the middle of a count, the sum's RMS is q sqrt(q / A) sqrt(2 zeta(3)) /
+// pi^2; over all places of the centre it is smaller by sqrt 2.
 double rounding_deviation(double amplitude, double quantum) {
   return amplitude > 0.0 ? 0.157 * quantum * std::sqrt(quantum / amplitude) : 0.0;
 }

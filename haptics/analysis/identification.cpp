@@ -104,7 +104,11 @@ Parameters linear_fit(const std::vector<FrequencyPoint>& points) {
     sz += weight * z.real(), szw += weight * z.real() * w2;
     b_numerator += weight * w * z.imag(), b_denominator += weight * w2;
   }
-  const double mass = (sz * sw - szw * s1) / (s1 * sww - sw * sw);
+  const double spread = s1 * sww - sw * sw;  // of the frequencies
+  if (spread < 1e-9 * s1 * sww)
+    throw std::invalid_argument(
+        "fit_axis: points at one frequency do not determine mass and stiffness; measure at more");
+  const double mass = (sz * sw - szw * s1) / spread;
   return {mass, b_numerator / b_denominator, (sz + mass * sw) / s1, 0.0};
 }
 
@@ -154,6 +158,28 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, cons
   return sum;
 }
 
+// Throws if the points do not tell a parameter from the others: if its variance is more than kMaxInflation times as large
+// as it would be with the others known. The derivatives' rounding hides inflations above about 1e11.
+void require_told_apart(const NormalEquations& sum) {
+  constexpr double kMaxInflation = 1e8;
+  constexpr const char* kReasons[] = {"the mass; measure at higher frequencies, too",
+                                      "the damping; measure at frequencies and amplitudes that lie further apart",
+                                      "the stiffness; measure at lower frequencies, too",
+                                      "the dry friction; measure at more amplitudes"};
+  const glm::dmat4 inverse = glm::inverse(sum.matrix);
+  int worst = 0;
+  double most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double inflation = sum.matrix[i][i] * inverse[i][i];
+    if (inflation <= most) continue;
+    worst = i;  // also if it is not a number
+    most = inflation;
+  }
+  for (int i = 0; i < 4; ++i) worst = sum.matrix[i][i] == 0.0 ? i : worst;
+  if (!(most < kMaxInflation) && std::isfinite(sum.squares))
+    throw std::invalid_argument(std::string("fit_axis: these points do not determine ") + kReasons[worst]);
+}
+
 double misfit_of(const NormalEquations& sum) {
   return std::sqrt(sum.squares / std::max(1.0, sum.residuals - 4.0));
 }
@@ -183,6 +209,7 @@ LeastSquares fit_points(const std::vector<FrequencyPoint>& points, double period
   LeastSquares fit;
   for (int iteration = 0; iteration < kMaxIterations && !fit.converged && has_mass(p); ++iteration) {
     fit.sum = normal_equations(points, p, period);
+    require_told_apart(fit.sum);
     const Parameters step = glm::inverse(fit.sum.matrix) * fit.sum.slope;
     p -= step;
     fit.converged = std::sqrt(glm::dot(step, fit.sum.slope)) <= kConvergence * std::max(1.0, misfit_of(fit.sum));

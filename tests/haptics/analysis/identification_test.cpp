@@ -561,6 +561,27 @@ TEST_CASE("the fit of a perfect response is its plant, and responses of no plant
   CHECK_THROWS_AS(fit_axis(two), std::invalid_argument);
 }
 
+TEST_CASE("points that cannot tell a parameter are rejected by one sentence: which parameter, and what to measure") {
+  const auto refusal = [](const FrequencyResponse& response) -> std::string {
+    try {
+      fit_axis(response);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  FrequencyResponse still = ideal_response(kPaperAxisX), steady = still, single = still;
+  for (FrequencyPoint& point : still.points) point.motion = 0.0;
+  // At one speed, friction is damping.
+  for (FrequencyPoint& point : steady.points) point.motion = 0.01 / (kTau * point.frequency);
+  single.points.resize(3);
+  for (FrequencyPoint& point : single.points) point.frequency = 65.0;
+  CHECK(refusal(still) == "fit_axis: these points do not determine the dry friction; measure at more amplitudes");
+  CHECK(refusal(steady).starts_with("fit_axis: these points do not determine the d"));  // damping or dry friction
+  CHECK(refusal(single) == "fit_axis: points at one frequency do not determine mass and stiffness; measure at more");
+  CHECK(refusal(ideal_response(kPaperAxisX)) == "accepted");
+}
+
 TEST_CASE("random responses: a fit that does not converge is rejected, not returned") {
   std::mt19937_64 engine(1);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
@@ -568,7 +589,7 @@ TEST_CASE("random responses: a fit that does not converge is rejected, not retur
   for (int i = 0; i < 50; ++i) {
     FrequencyResponse random = ideal_response(kPaperAxisX);
     for (FrequencyPoint& point : random.points) {
-      const double gain = std::exp(2.0 * uniform() - 1.0);
+      const double gain = std::exp(4.0 * uniform() - 2.0);
       point.response *= std::polar(gain, 2.0 * uniform() - 1.0);
       point.held = 1.0;
     }
