@@ -46,6 +46,7 @@ struct StabilityArguments {
   int window = 1;
   std::string hold = "zero_order";
   std::string hand = "bare";
+  double encoder_step = 74.5;  // [um] the paper's 2250 counts over 80 deg
   bool json = false;
   std::string svg_file, csv_file;
 };
@@ -129,8 +130,9 @@ void write_map(const StabilityArguments& arguments, const lab::StabilityQuestion
 
 int run_stability(const StabilityArguments& arguments) {
   check_distinct_outputs("--csv", "the drawing and the table", arguments.csv_file, arguments.svg_file);
-  const lab::StabilityQuestion question{device_name(arguments), handle_of(arguments), arguments.rate,
-                                        wall_of(arguments), hands_of(arguments.hand)};
+  const lab::StabilityQuestion question{device_name(arguments),   handle_of(arguments),
+                                        arguments.rate,           wall_of(arguments),
+                                        hands_of(arguments.hand), 1e-6 * arguments.encoder_step};
   const lab::StabilityAnswer answer = answer_or_reject(question, arguments.hand);
   write_map(arguments, question, answer);
   const lab::RuntimeAnswer runtime = lab::query_runtime(question);
@@ -151,6 +153,10 @@ void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--delay", arguments.delay, "delay until a command takes effect [samples]")
       ->check(whole_number(0, haptics::kMaxSimulatedDelay))
+      ->capture_default_str();
+  verb.add_option("--encoder-step", arguments.encoder_step,
+                  "motion of the handle per encoder count [um], for the laws of the trainer; 0: none")
+      ->check(number_between(0.0, 1e4))
       ->capture_default_str();
   verb.add_option("--hand", arguments.hand,
                   "hand on the handle: bare, light, grip, arm or all; or its mass, damping and stiffness as M,B,K [kg, "

@@ -84,6 +84,8 @@ check "with the reason" says "wall_stiffness_n_per_m limited from 5000 to 332.5 
 answers --hold half_sample --wall-damping 10 --json
 check "the shipped wall is used unchanged" is admitted_wall_stiffness_n_per_m 5000.0
 check "nothing is limited" is limited "[]"
+answers --hold half_sample --wall-damping 10 --encoder-step 419 --json
+check "a coarser encoder allows less damping: 3 N T / q" near admitted_wall_damping_n_s_per_m 7.16 1e-3
 answers --hold half_sample --rate 4000 --wall-stiffness 90000 --wall-damping 500 --json
 check "the requested stiffness is limited to the trainer's maximum" is asked_wall_stiffness_n_per_m 20000.0
 check "the requested damping, too" is asked_wall_damping_n_s_per_m 100.0

@@ -1,10 +1,8 @@
 #include "app/lab/stability/runtime_answer.h"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
-#include "haptics/device/simulated_lever.h"
 #include "haptics/gate/plain_aisle.h"
 
 namespace gearshift::lab {
@@ -27,8 +25,7 @@ haptics::DeviceSpec device_of(const StabilityQuestion& question) {
   haptics::DeviceSpec device;
   device.axis_x = device.axis_y = question.handle;
   device.delay = question.wall.delay;
-  const haptics::SimulatedLeverConfig paper;  // for the encoder
-  device.position_step = paper.yoke.radius * std::numbers::pi / 180.0 / paper.encoder_counts;
+  device.position_step = question.encoder_step;
   device.simulated = true;
   return device;
 }

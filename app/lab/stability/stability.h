@@ -23,6 +23,7 @@ struct StabilityQuestion {
   double rate = 1000.0;           // [Hz]
   haptics::ContactLaw wall;       // wanted
   std::vector<JudgedHand> hands;  // at least one
+  double encoder_step = 0.0;      // [m] motion of the tip per encoder count, for the trainer's laws; 0: none
 
   double period() const { return 1.0 / rate; }  // [s]
 };

@@ -77,7 +77,8 @@ bool is_clipped(const haptics::ContactLaw& wall, const RuntimeAnswer& runtime) {
   return runtime.stiffness != wall.stiffness || runtime.damping != wall.damping;
 }
 
-std::string format_runtime_answer(const haptics::ContactLaw& wall, const RuntimeAnswer& runtime) {
+std::string format_runtime_answer(const StabilityQuestion& question, const RuntimeAnswer& runtime) {
+  const haptics::ContactLaw& wall = question.wall;
   if (!runtime.problem.empty())
     return fmt::format("The trainer does not run with these values, because {}.\n", runtime.problem);
   const haptics::AdmittedTuning& admitted = runtime.admitted;
@@ -88,7 +89,8 @@ std::string format_runtime_answer(const haptics::ContactLaw& wall, const Runtime
     text += fmt::format("  (values out of range were lowered to {}, the largest that the trainer accepts)\n",
                         format_wall(runtime.stiffness, runtime.damping));
   for (const haptics::TuningLimit& limited : admitted.limits) text += fmt::format("  {}\n", haptics::describe(limited));
-  return text;
+  return text +
+         fmt::format("Its laws take {:.1f} um per encoder count (--encoder-step).\n", 1e6 * question.encoder_step);
 }
 
 Json limited_json(const haptics::TuningLimit& limited) {
@@ -154,7 +156,7 @@ std::string stability_text(const StabilityQuestion& question, const StabilityAns
   text += "  passive  " + format_passive_answer(wall, answer);
   text +=
       "Passivity is sufficient but not necessary for stability with every passive hand, so the exact limit decides.\n";
-  return text + format_runtime_answer(wall, runtime);
+  return text + format_runtime_answer(question, runtime);
 }
 
 std::string stability_json(const StabilityQuestion& question, const StabilityAnswer& answer,
@@ -171,6 +173,7 @@ std::string stability_json(const StabilityQuestion& question, const StabilityAns
             {"hold", haptics::file_key(wall.hold)},
             {"wall_stiffness_n_per_m", wall.stiffness},
             {"wall_damping_n_s_per_m", wall.damping},
+            {"encoder_step_m", question.encoder_step},
             {"may_use", answer.may_use},
             {"stable", answer.stable},
             {"passive", answer.passive ? Json(*answer.passive) : Json(nullptr)},
