@@ -95,7 +95,7 @@ TrialRun run_trial(const Trial& trial) {
   hold_at_start(run, hand, trial);
 
   const double period = run.period();
-  TrialRun result{period, run.loop().admitted(), 0.0, {}};
+  TrialRun result{period, trial.lever.delay, run.loop().admitted(), 0.0, {}};
   const std::size_t count = cycles(trial.duration, period);
   result.samples.reserve(count + 1);
   result.samples.push_back(sample_of(run, run.loop().snapshot(), 0.0));
@@ -133,11 +133,13 @@ haptics::Gate wall_at_zero() {
 std::vector<TrialContact> contacts(const TrialRun& run, const haptics::Gate& gate) {
   std::vector<TrialContact> found;
   bool inside = false;
+  int acting = 0;  // [periods] for which the wall's forces still act
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const TrialSample &last = run.samples[i - 1], &now = run.samples[i];
     const bool is_inside = now.position.x > gate.select_max || now.position.x < gate.select_min;
     if (is_inside && !inside) found.push_back({now.time, 0.0, std::abs(last.velocity.x), 0.0, false});
-    if (is_inside || inside) found.back().energy += now.motor.x * (now.position.x - last.position.x);
+    acting = is_inside || inside ? run.delay + 1 : acting - 1;
+    if (acting > 0) found.back().energy += now.motor.x * (now.position.x - last.position.x);
     if (is_inside || inside) found.back().end = now.time;
     if (inside && !is_inside) found.back().left = true;
     inside = is_inside;

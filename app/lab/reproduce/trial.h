@@ -44,6 +44,7 @@ struct TrialSample {
 
 struct TrialRun {
   double period = 0.0;  // [s]
+  int delay = 0;        // [periods] from a command to its effect
   haptics::AdmittedTuning admitted;
   double stiffness = 0.0;  // [N/m] wall stiffness at the end
   std::vector<TrialSample> samples;
@@ -65,7 +66,7 @@ haptics::Gate wall_at_zero();
 struct TrialContact {
   double begin = 0.0, end = 0.0;  // [s] times; if the lever stays in the wall, `end` is the end of the run
   double speed = 0.0;             // [m/s] speed at the impact
-  double energy = 0.0;            // [J] energy that the motors supply to the lever
+  double energy = 0.0;            // [J] energy that the motors supply to the lever, with forces that are late
   bool left = false;              // true if the lever left the wall
 };
 std::vector<TrialContact> contacts(const TrialRun& run, const haptics::Gate& gate);
