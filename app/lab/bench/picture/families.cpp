@@ -13,6 +13,7 @@ const std::vector<NamedFamily>& bench_families() {
                                                  {"delivered", bench_delivered, {Design::delivered}},
                                                  {"boundary", bench_boundary, {Design::boundary}},
                                                  {"methods", bench_methods},
+                                                 {"search", bench_search},
                                                  {"hard", bench_hard},
                                                  {"faults", bench_faults},
                                                  {"intent", bench_intent, {Design::intent}},

@@ -86,6 +86,7 @@ std::vector<BenchRow> bench_energy(const BenchOptions& options);     // energy t
 std::vector<BenchRow> bench_delivered(const BenchOptions& options);  // force at the tip against a steady push
 std::vector<BenchRow> bench_boundary(const BenchOptions& options);   // predicted stability against simulated divergence
 std::vector<BenchRow> bench_methods(const BenchOptions& options);    // contact holds, estimators and energy control
+std::vector<BenchRow> bench_search(const BenchOptions& options);     // the observer's stiffness and damping
 std::vector<BenchRow> bench_hard(const BenchOptions& options);       // many rates, delays, pushes, jitter, quantisation
 std::vector<BenchRow> bench_driveline(const BenchOptions& options);  // integration methods against a reference
 std::vector<BenchRow> bench_learning(const BenchOptions& options);   // assessment and guidance of simulated drivers
