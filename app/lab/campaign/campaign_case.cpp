@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // makes the draws of widen() independent of all other draws
 constexpr std::uint64_t kGripSeed = 0x5851f42d4c957f2d;  // makes the grips' draws independent of all other draws
-constexpr double kElasticShare = 0.3;                    // [1] of the cases with a hand
+constexpr double kElasticFraction = 0.3;                 // [1] of the cases with a hand
 constexpr double kCountPerDegree =
     haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] motion of the tip per degree
 
@@ -164,7 +164,7 @@ CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int s
   Chance wide_chance(drawn.seed ^ kWideSeed);
   if (number % kWideEvery == kFirstWide) widen(drawn, wide_chance);
   Chance grip_chance(drawn.seed ^ kGripSeed);
-  drawn.is_elastic = drawn.hand != CaseHand::bare && grip_chance.happens(kElasticShare);
+  drawn.is_elastic = drawn.hand != CaseHand::bare && grip_chance.happens(kElasticFraction);
   const std::array<double, 3> grip{grip_chance.between(0.0, 1.0), grip_chance.between(0.0, 1.0),
                                    grip_chance.between(0.0, 1.0)};
   if (drawn.is_elastic) drawn.lever.hand = with_grip(drawn.lever.hand, grip);
