@@ -12,11 +12,11 @@ struct Hand {
   double unrest;                // [N / sqrt(s)] how fast its force wanders
   double grip_damping = 0.0;    // [N s/m] of an elastic hand, whose body is a second mass (see hand.h)
   double grip_stiffness = 0.0;  // [N/m] 0: the body moves with the lever
-  bool is_elastic() const noexcept { return grip_stiffness > 0.0; }
+  constexpr bool is_elastic() const noexcept { return grip_stiffness > 0.0; }
 };
 // No hand; hands as in hand.h and around them; the skin of a heavy hand; hands that let go or push suddenly; heavy hands
 // behind a springy grip, which strike a wall like none of the others.
-constexpr std::array<Hand, 19> kAnyHand{{{{0.0, 0.0, 0.0}, 1.0},
+constexpr std::array<Hand, 20> kAnyHand{{{{0.0, 0.0, 0.0}, 1.0},
                                          {{0.02, 2.0, 100.0}, 8.0},
                                          {{0.1, 5.0, 200.0}, 12.0},
                                          {{0.15, 10.0, 500.0}, 16.0},
@@ -28,6 +28,7 @@ constexpr std::array<Hand, 19> kAnyHand{{{{0.0, 0.0, 0.0}, 1.0},
                                          {{0.15, 10.0, 500.0}, 50.0},
                                          {{5.0, 40.0, 3000.0}, 60.0},
                                          {{2.5, 20.0, 1500.0}, 100.0},
+                                         {{0.0, 4.0, 4000.0}, 80.0},
                                          {{0.0, 4.0, 4000.0}, 80.0},
                                          {{0.3, 10.0, 200.0}, 40.0, 8.0, 2500.0},
                                          {{0.3, 10.0, 200.0}, 40.0, 10.0, 6000.0},
@@ -60,7 +61,7 @@ constexpr double kTelling = 400.0;               // [1/s] squared difference bet
 constexpr double kMaxSurprise = 25.0;            // [1] squared error over its variance: a single reading proves little
 constexpr double kMaxReach = 0.95;               // [1] of the way to a stop
 constexpr double kMaxStep = 0.001;               // [s]
-constexpr std::int64_t kMaxGap = 100'000'000;    // [ns] between readings
+constexpr std::int64_t kMaxGap = 20'000'000;     // [ns] between readings; bounds the steps of one cycle
 constexpr double kPositionNoise = 30e-6;         // [m]
 constexpr double kTimeNoise = 300e-6;            // [s] of readings and outputs
 constexpr double kSpeedNoise = 0.2;              // [m/s / sqrt(s)] forces that the handle's model lacks
@@ -72,17 +73,46 @@ constexpr double squared(double value) noexcept {
   return value * value;
 }
 
+// As std::clamp, which the compiler cannot compute for two values at once.
+constexpr double limited(double value, double low, double high) noexcept {
+  const double raised = value < low ? low : value;
+  return high < raised ? high : raised;
+}
+
+// One property of all hands.
+template <typename Property>
+constexpr auto each(Property property) noexcept {
+  std::array<double, kAnyHand.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = property(kAnyHand[i]);
+  return all;
+}
+constexpr auto kBodyMobility = each([](const Hand& hand) { return hand.is_elastic() ? 1.0 / hand.body.mass : 0.0; });
+constexpr auto kBodyDamping = each([](const Hand& hand) { return hand.body.damping; });
+constexpr auto kBodyStiffness = each([](const Hand& hand) { return hand.body.stiffness; });
+constexpr auto kPull = each([](const Hand& hand) { return hand.grip_stiffness; });
+constexpr auto kDrag = each([](const Hand& hand) { return hand.grip_damping; });
+constexpr auto kUnrest = each([](const Hand& hand) { return squared(hand.unrest); });
+
+constexpr std::size_t kPositionState = 0, kBodyState = 3;
+
 }  // namespace
 
 ForceWatch::ForceWatch(const DeviceSpec& spec, double lag) noexcept
     : count_variance_(std::max(squared(spec.position_step) / 12.0, squared(kPositionNoise))),
       lag_ns_(std::llround(1e9 * lag)) {
   static_assert(kAnyHand.size() == kHands && kAnyStick.size() == kExplanations);
+  static_assert(!kAnyHand[kRigid - 1].is_elastic() && kAnyHand[kRigid].is_elastic());
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
     axis.handle = i == 0 ? spec.axis_x : spec.axis_y;
     axis.reach = spec.workspace[i];
     axis.max_force = spec.max_force[i];
+    for (std::size_t hand = 0; hand < kHands; ++hand) {
+      const AxisModel body = hand < kRigid ? kAnyHand[hand].body : AxisModel{0.0, 0.0, 0.0};
+      axis.mobility[hand] = 1.0 / (axis.handle.mass + body.mass);
+      axis.damping[hand] = axis.handle.damping + body.damping;
+      axis.stiffness[hand] = axis.handle.stiffness + body.stiffness;
+    }
   }
 }
 
@@ -91,8 +121,16 @@ void ForceWatch::reset() noexcept {
   driving_ns_ = 0;
   outputs_.fill({});
   for (Axis& axis : axis_) {
-    for (auto& estimates : axis.estimate) estimates.fill({});
+    axis.estimate.fill({});
+    axis.likelihood.fill(0.0);
   }
+}
+
+void ForceWatch::pause() noexcept {
+  if (!has_reading_) return;
+  if (drives_ || evidence(0, ForceFault::silent) + evidence(1, ForceFault::silent) <= 0.0) return reset();
+  has_reading_ = false;
+  outputs_.fill({});
 }
 
 void ForceWatch::on_output(const StickForces& forces, std::int64_t time_ns) noexcept {
@@ -139,14 +177,16 @@ void ForceWatch::on_reading(glm::dvec2 position, std::int64_t time_ns) noexcept 
 }
 
 void ForceWatch::place(Axis& axis, double position) noexcept {
-  for (auto& estimates : axis.estimate) {
-    for (Estimate& estimate : estimates) estimate = {position, 0.0, 0.0, position, 0.0, estimate.likelihood};
+  for (Estimate& estimate : axis.estimate) {
+    for (Values& values : estimate.state) values.fill(0.0);
+    estimate.state[kPositionState].fill(position);
+    estimate.state[kBodyState].fill(position);
   }
-  const std::array<double, kStates> deviations{kPositionNoise, kFirstSpeed, kInitialForceDeviation, kInitialStretch,
-                                               kFirstSpeed};
-  for (Covariance& covariance : axis.covariance) {
-    covariance = {};
-    for (std::size_t i = 0; i < kStates; ++i) covariance[i][i] = squared(deviations[i]);
+  constexpr std::array<double, kStates> kDeviations{kPositionNoise, kFirstSpeed, kInitialForceDeviation,
+                                                    kInitialStretch, kFirstSpeed};
+  for (std::size_t i = 0; i < kStates; ++i) {
+    for (Values& values : axis.covariance[i]) values.fill(0.0);
+    axis.covariance[i][i].fill(squared(kDeviations[i]));
   }
 }
 
@@ -154,58 +194,82 @@ void ForceWatch::place(Axis& axis, double position) noexcept {
 // elastic hand moves by itself, X += V dt, V += (h - B V - K X - g) dt / M, and pulls the handle with its grip's force g =
 // b_g (V - v) + k_g (X - x) instead of h.
 void ForceWatch::predict(Axis& axis, const AxisForces& forces, double seconds) noexcept {
-  for (std::size_t number = 0; number < kHands; ++number) {
-    const Hand& hand = kAnyHand[number];
-    const bool is_elastic = hand.is_elastic();
-    const AxisModel& body = hand.body;
-    const AxisModel lever{axis.handle.mass + (is_elastic ? 0.0 : body.mass),
-                          axis.handle.damping + (is_elastic ? 0.0 : body.damping),
-                          axis.handle.stiffness + (is_elastic ? 0.0 : body.stiffness)};
-    const double s = seconds, lever_step = s / lever.mass, body_step = is_elastic ? s / body.mass : 0.0;
-    const double pull = hand.grip_stiffness, drag = hand.grip_damping;
-    const std::array<double, kStates> speed{-(lever.stiffness + pull) * lever_step,
-                                            1.0 - (lever.damping + drag) * lever_step, is_elastic ? 0.0 : lever_step,
-                                            pull * lever_step, drag * lever_step};
-    const std::array<double, kStates> body_speed{pull * body_step, drag * body_step, body_step,
-                                                 -(body.stiffness + pull) * body_step,
-                                                 1.0 - (body.damping + drag) * body_step};
-    const std::size_t states = is_elastic ? kStates : kRigidStates;
-    // The transition of one state: each column of the covariance, then each row.
-    const auto moved = [&](const std::array<double, kStates>& old) {
-      std::array<double, kStates> next{old[0] + s * old[1], 0.0, old[2], old[3] + s * old[4], 0.0};
-      for (std::size_t i = 0; i < states; ++i) next[1] += speed[i] * old[i];
-      if (is_elastic)
-        for (std::size_t i = 0; i < states; ++i) next[4] += body_speed[i] * old[i];
-      return next;
+  const double s = seconds;
+  auto& [px, pv, ph, pb, pw] = axis.covariance;  // rows
+  for (std::size_t i = 0; i < kRigid; ++i) {
+    const double step = s * axis.mobility[i], hold = -axis.stiffness[i] * step, keep = 1.0 - axis.damping[i] * step;
+    const double xv = px[1][i] + s * pv[1][i], xh = px[2][i] + s * pv[2][i], vx = hold * px[0][i] + keep * px[1][i] + step * px[2][i],
+                 vv = hold * px[1][i] + keep * pv[1][i] + step * pv[2][i], vh = hold * px[2][i] + keep * pv[2][i] + step * ph[2][i];
+    px[0][i] += s * (px[1][i] + xv);
+    px[1][i] = vx + s * vv;
+    px[2][i] = xh;
+    pv[1][i] = hold * vx + keep * vv + step * vh + s * squared(kSpeedNoise);
+    pv[2][i] = vh;
+    ph[2][i] += s * kUnrest[i];
+  }
+  for (std::size_t i = kRigid; i < kHands; ++i) {
+    const double step = s * axis.mobility[i], body_step = s * kBodyMobility[i];
+    const double pull = step * kPull[i], drag = step * kDrag[i], hold = -axis.stiffness[i] * step - pull,
+                 keep = 1.0 - axis.damping[i] * step - drag;
+    const double body_pull = body_step * kPull[i], body_drag = body_step * kDrag[i],
+                 body_hold = -kBodyStiffness[i] * body_step - body_pull,
+                 body_keep = 1.0 - kBodyDamping[i] * body_step - body_drag;
+    // The transition of a column, then of a row.
+    const auto speed = [=](double x, double v, double b, double w) { return hold * x + keep * v + pull * b + drag * w; };
+    const auto body_speed = [=](double x, double v, double h, double b, double w) {
+      return body_pull * x + body_drag * v + body_step * h + body_hold * b + body_keep * w;
     };
-    Covariance& covariance = axis.covariance[number];
-    Covariance half{};
-    for (std::size_t i = 0; i < states; ++i) half[i] = moved(covariance[i]);
-    for (std::size_t j = 0; j < states; ++j) {
-      std::array<double, kStates> column{};
-      for (std::size_t i = 0; i < states; ++i) column[i] = half[i][j];
-      covariance[j] = moved(column);
+    const double xx = px[0][i], xv = px[1][i], xh = px[2][i], xb = px[3][i], xw = px[4][i], vv = pv[1][i], vh = pv[2][i],
+                 vb = pv[3][i], vw = pv[4][i], hh = ph[2][i], hb = ph[3][i], hw = ph[4][i], bb = pb[3][i], bw = pb[4][i],
+                 ww = pw[4][i];
+    const double Xx = xx + s * xv, Xv = xv + s * vv, Xh = xh + s * vh, Xb = xb + s * vb, Xw = xw + s * vw;
+    const double Vx = speed(xx, xv, xb, xw), Vv = speed(xv, vv, vb, vw), Vh = speed(xh, vh, hb, hw),
+                 Vb = speed(xb, vb, bb, bw), Vw = speed(xw, vw, bw, ww);
+    const double Bx = xb + s * xw, Bv = vb + s * vw, Bh = hb + s * hw, Bb = bb + s * bw, Bw = bw + s * ww;
+    const double Wx = body_speed(xx, xv, xh, xb, xw), Wv = body_speed(xv, vv, vh, vb, vw),
+                 Wh = body_speed(xh, vh, hh, hb, hw), Wb = body_speed(xb, vb, hb, bb, bw),
+                 Ww = body_speed(xw, vw, hw, bw, ww);
+    px[0][i] = Xx + s * Xv;
+    px[1][i] = Vx + s * Vv;
+    px[2][i] = Xh;
+    px[3][i] = Xb + s * Xw;
+    px[4][i] = Wx + s * Wv;
+    pv[1][i] = speed(Vx, Vv, Vb, Vw) + s * squared(kSpeedNoise);
+    pv[2][i] = Vh;
+    pv[3][i] = Vb + s * Vw;
+    pv[4][i] = body_speed(Vx, Vv, Vh, Vb, Vw);
+    ph[2][i] = hh + s * kUnrest[i];
+    ph[3][i] = Bh;
+    ph[4][i] = Wh;
+    pb[3][i] = Bb + s * Bw;
+    pb[4][i] = body_speed(Bx, Bv, Bh, Bb, Bw);
+    pw[4][i] = body_speed(Wx, Wv, Wh, Wb, Ww);
+  }
+  const double low = forces.low, high = forces.high, full = axis.max_force;
+  for (std::size_t stick = 0; stick < kExplanations; ++stick) {
+    auto& [position, speed, hand, body, body_speed] = axis.estimate[stick].state;
+    const double constant = kAnyStick[stick].constants * forces.constant;
+    const double stiffness = kAnyStick[stick].conditions * forces.stiffness;
+    const double damping = kAnyStick[stick].conditions * forces.damping;
+    const auto acceleration = [&](std::size_t i, double grip) {
+      const double depth = position[i] - limited(position[i], low, high);
+      const double force = limited(constant - stiffness * depth - damping * speed[i], -full, full);
+      return axis.mobility[i] * (force - axis.damping[i] * speed[i] - axis.stiffness[i] * position[i] + grip);
+    };
+    for (std::size_t i = 0; i < kRigid; ++i) {
+      const double a = acceleration(i, hand[i]);
+      position[i] += s * (speed[i] + 0.5 * s * a);
+      speed[i] += s * a;
     }
-    covariance[1][1] += s * squared(kSpeedNoise);
-    covariance[2][2] += s * squared(hand.unrest);
-    for (std::size_t stick = 0; stick < kExplanations; ++stick) {
-      Estimate& now = axis.estimate[stick][number];
-      const double depth = now.position - std::clamp(now.position, forces.low, forces.high);
-      const double condition = -forces.stiffness * depth - forces.damping * now.speed;
-      const Explanation& explanation = kAnyStick[stick];
-      const double force = std::clamp(explanation.constants * forces.constant + explanation.conditions * condition,
-                                      -axis.max_force, axis.max_force);
-      const double grip =
-          is_elastic ? pull * (now.body - now.position) + drag * (now.body_speed - now.speed) : now.hand;
-      const double acceleration =
-          (force - lever.damping * now.speed - lever.stiffness * now.position + grip) / lever.mass;
-      if (is_elastic) {
-        const double other = (now.hand - grip - body.damping * now.body_speed - body.stiffness * now.body) / body.mass;
-        now.body += s * (now.body_speed + 0.5 * s * other);
-        now.body_speed += s * other;
-      }
-      now.position += s * (now.speed + 0.5 * s * acceleration);
-      now.speed += s * acceleration;
+    for (std::size_t i = kRigid; i < kHands; ++i) {
+      const double grip = kPull[i] * (body[i] - position[i]) + kDrag[i] * (body_speed[i] - speed[i]);
+      const double a = acceleration(i, grip);
+      const double other =
+          kBodyMobility[i] * (hand[i] - grip - kBodyDamping[i] * body_speed[i] - kBodyStiffness[i] * body[i]);
+      body[i] += s * (body_speed[i] + 0.5 * s * other);
+      body_speed[i] += s * other;
+      position[i] += s * (speed[i] + 0.5 * s * a);
+      speed[i] += s * a;
     }
   }
 }
@@ -214,37 +278,39 @@ void ForceWatch::predict(Axis& axis, const AxisForces& forces, double seconds) n
 // hands apart, and with them the sticks.
 void ForceWatch::correct(Axis& axis, double position, double speed, double seconds) const noexcept {
   const double noise = count_variance_ + squared(kTimeNoise * speed);
-  const double difference =
-      axis.estimate[kRight][kTypicalHand].position - axis.estimate[kSilent][kTypicalHand].position;
-  const double information = squared(difference) / (axis.covariance[kTypicalHand][0][0] + noise);
+  const auto typical = [&](std::size_t stick) { return axis.estimate[stick].state[kPositionState][kTypicalHand]; };
+  const double information =
+      squared(typical(kRight) - typical(kSilent)) / (axis.covariance[0][0][kTypicalHand] + noise);
   const double weight = std::min(1.0, information / (kTelling * seconds));
   const double fading = std::exp(-weight * seconds / kMemory);
-  for (std::size_t hand = 0; hand < kHands; ++hand) {
-    const std::size_t states = kAnyHand[hand].is_elastic() ? kStates : kRigidStates;
-    Covariance& covariance = axis.covariance[hand];
-    const double variance = covariance[0][0] + noise, log_variance = std::log(variance);
-    std::array<double, kStates> gain{};
-    for (std::size_t i = 0; i < states; ++i) gain[i] = covariance[0][i] / variance;
-    for (auto& estimates : axis.estimate) {
-      Estimate& now = estimates[hand];
-      const double error = position - now.position;
-      const double surprise = std::min(squared(error) / variance, kMaxSurprise) + log_variance;
-      now = {now.position + gain[0] * error,   now.speed + gain[1] * error,
-             now.hand + gain[2] * error,       now.body + gain[3] * error,
-             now.body_speed + gain[4] * error, fading * now.likelihood - 0.5 * weight * surprise};
-    }
-    const std::array<double, kStates> first = covariance[0];
-    for (std::size_t i = 0; i < states; ++i) {
-      for (std::size_t j = 0; j < states; ++j) covariance[i][j] -= gain[i] * first[j];
+  const std::array<Values, kStates> first = axis.covariance[0];
+  std::array<Values, kStates> gain;
+  Values precision, log_variance;
+  for (std::size_t i = 0; i < kHands; ++i) precision[i] = 1.0 / (first[0][i] + noise);
+  for (std::size_t i = 0; i < kHands; ++i) log_variance[i] = -std::log(precision[i]);
+  for (std::size_t row = 0; row < kStates; ++row) {
+    for (std::size_t i = 0; i < kHands; ++i) gain[row][i] = first[row][i] * precision[i];
+  }
+  for (std::size_t row = 0; row < kStates; ++row) {
+    for (std::size_t column = row; column < kStates; ++column) {
+      for (std::size_t i = column < kRigidStates ? 0 : kRigid; i < kHands; ++i)
+        axis.covariance[row][column][i] -= gain[row][i] * first[column][i];
     }
   }
-}
-
-double ForceWatch::likelihood(int axis, std::size_t stick) const noexcept {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Estimate& estimate : axis_[static_cast<std::size_t>(axis)].estimate[stick])
-    best = std::max(best, estimate.likelihood);
-  return best;
+  for (std::size_t stick = 0; stick < kExplanations; ++stick) {
+    Estimate& estimate = axis.estimate[stick];
+    Values error;
+    for (std::size_t i = 0; i < kHands; ++i) error[i] = position - estimate.state[kPositionState][i];
+    for (std::size_t row = 0; row < kStates; ++row) {
+      for (std::size_t i = row < kRigidStates ? 0 : kRigid; i < kHands; ++i)
+        estimate.state[row][i] += gain[row][i] * error[i];
+    }
+    for (std::size_t i = 0; i < kHands; ++i) {
+      const double surprise = std::min(squared(error[i]) * precision[i], kMaxSurprise) + log_variance[i];
+      estimate.likelihood[i] = fading * estimate.likelihood[i] - 0.5 * weight * surprise;
+    }
+    axis.likelihood[stick] = *std::max_element(estimate.likelihood.begin(), estimate.likelihood.end());
+  }
 }
 
 bool ForceWatch::may_be_silent() const noexcept {
@@ -254,21 +320,22 @@ bool ForceWatch::may_be_silent() const noexcept {
 }
 
 double ForceWatch::evidence(int axis, ForceFault fault) const noexcept {
+  const auto& likelihood = axis_[static_cast<std::size_t>(axis)].likelihood;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t stick = 0; stick < kExplanations; ++stick) {
-    if (kAnyStick[stick].fault == fault) best = std::max(best, likelihood(axis, stick));
+    if (kAnyStick[stick].fault == fault) best = std::max(best, likelihood[stick]);
   }
-  return best - likelihood(axis, kRight);
+  return best - likelihood[kRight];
 }
 
 ForceFault ForceWatch::fault(bool is_doubtful) const noexcept {
   double all_silent = 0.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double right = likelihood(axis, kRight), silent = likelihood(axis, kSilent) - right;
+  for (const Axis& axis : axis_) {
+    const double right = axis.likelihood[kRight], silent = axis.likelihood[kSilent] - right;
     for (std::size_t stick = 0; stick < kExplanations; ++stick) {
       const Explanation& explanation = kAnyStick[stick];
       if (explanation.fault != ForceFault::reversed) continue;
-      if (likelihood(axis, stick) - right > std::max(explanation.min_evidence, silent)) return ForceFault::reversed;
+      if (axis.likelihood[stick] - right > std::max(explanation.min_evidence, silent)) return ForceFault::reversed;
     }
     // Both motors have the same power supply, so an axis that drives outweighs one that only seems to be silent.
     all_silent += silent;

@@ -53,7 +53,10 @@ class ForceWatch {
   // Real-time safe.
   void on_output(const StickForces& forces, std::int64_t time_ns) noexcept;
   void on_reading(glm::dvec2 position, std::int64_t time_ns) noexcept;  // [m]
-  void reset() noexcept;                                                // when the motors were off
+  // The motors are off: for a stuck sensor, a late command or by a person's wish. Evidence that no motor acts is kept for
+  // when they are on again, because a stick without power is often switched off for another reason first.
+  void pause() noexcept;
+  void reset() noexcept;
 
   // The best explained fault. `is_doubtful`: the stick says that it makes no forces. That may not be true, and counts
   // only until its forces were seen.
@@ -64,28 +67,30 @@ class ForceWatch {
   double evidence(int axis, ForceFault fault) const noexcept;
 
  private:
-  static constexpr std::size_t kHands = 19, kExplanations = 4;
+  static constexpr std::size_t kExplanations = 4;
+  // Rigid and elastic hands, both even numbers, so that the compiler can compute two at once.
+  static constexpr std::size_t kRigid = 14, kHands = 20;
   static constexpr std::size_t kStates = 5, kRigidStates = 3;
+  using Values = std::array<double, kHands>;  // one for each hand
   struct Estimate {
-    double position = 0.0, speed = 0.0, hand = 0.0;  // [m] [m/s] [N]
-    double body = 0.0, body_speed = 0.0;             // [m] [m/s] of an elastic hand's mass
-    double likelihood = 0.0;                         // [nat] logarithm, fading
+    // [m] [m/s] [N], and [m] [m/s] of an elastic hand's mass
+    std::array<Values, kStates> state{};
+    Values likelihood{};  // [nat] logarithm, fading
   };
-  // An estimate's first five values; the same for all explanations with the same hand.
-  using Covariance = std::array<std::array<double, kStates>, kStates>;
   struct Axis {
     AxisModel handle;
-    double reach = 0.0;      // [m]
-    double max_force = 0.0;  // [N]
-    std::array<Covariance, kHands> covariance{};
-    std::array<std::array<Estimate, kHands>, kExplanations> estimate{};
+    double reach = 0.0;                                       // [m]
+    double max_force = 0.0;                                   // [N]
+    Values mobility{}, damping{}, stiffness{};  // 1 / mass ... of the handle with a rigid hand, or without an elastic one
+    std::array<std::array<Values, kStates>, kStates> covariance{};  // only [i][j] with i <= j
+    std::array<Estimate, kExplanations> estimate{};
+    std::array<double, kExplanations> likelihood{};  // [nat] with the best of all hands
   };
   struct Output {
     StickForces forces;
     std::int64_t time_ns = 0;
   };
 
-  double likelihood(int axis, std::size_t stick) const noexcept;  // [nat] with the best of all hands
   static void place(Axis& axis, double position) noexcept;
   static void predict(Axis& axis, const AxisForces& forces, double seconds) noexcept;
   void correct(Axis& axis, double position, double speed, double seconds) const noexcept;

@@ -160,7 +160,7 @@ LeverReading PidLever::read(std::int64_t) noexcept {
 bool PidLever::drives_otherwise(const StickState& state, const LeverReading& reading) noexcept {
   // With a wrong delay, forces and motion do not belong together.
   if (!state.actuators || state.sequence == 0 || !calibration_.has_timing()) {
-    watch_.reset();
+    watch_.pause();
     return false;
   }
   watch_.on_output(forces_of(state), state.sent_ns);
@@ -282,7 +282,6 @@ void PidLever::release() noexcept {
   walls_ = {};
   against_ = {};
   is_doubtful_ = {};
-  doubtful_pushes_ = 0;
   driver_.release();
 }
 

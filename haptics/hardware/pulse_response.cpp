@@ -51,8 +51,18 @@ class PulseMotion {
     const double elapsed = time - time_;
     time_ = time;
     if (next_ == 0 || elapsed <= 0.0) return;  // at rest before the first step
-    state_ = limits_.coulomb_friction > 0.0 ? advance_limited(axis_, limits_, state_, force_, elapsed)
-                                            : advance(axis_, state_, force_, elapsed);
+    const double friction = std::copysign(limits_.coulomb_friction, state_.velocity);
+    const AxisState next = stepper(elapsed).step(state_, force_ - friction);
+    // In less than half an oscillation the motion reverses once at most, so it did not if its direction is the same.
+    const bool keeps_on = next.velocity * state_.velocity > 0.0 && axis_.stiffness * elapsed * elapsed < 9.0;
+    state_ = friction == 0.0 || keeps_on ? next : advance_limited(axis_, limits_, state_, force_, elapsed);
+  }
+
+  // Most samples have the same interval, and a new stepper takes most of the calibration's time.
+  const AxisStepper& stepper(double period) {
+    constexpr double kSame = 1e-12;  // [s]
+    if (std::abs(period - period_) > kSame) stepper_ = AxisStepper(axis_, period_ = period);
+    return stepper_;
   }
 
   AxisModel axis_;
@@ -62,6 +72,8 @@ class PulseMotion {
   std::size_t next_ = 0;
   AxisState state_{};
   double force_ = 0.0, time_ = -1.0;
+  double period_ = 0.0;  // [s] of the stepper
+  AxisStepper stepper_{axis_, 0.0};
 };
 
 class PulseProblem {

@@ -10,6 +10,9 @@ constexpr std::uint64_t reported_bit_of(std::size_t kind) noexcept {
   return bit_of(kind) << 32;
 }
 
+// A stick without power moves, or rests, as if a strong hand held it.
+const std::string kIfNotFelt = "; if you felt no force, check the stick's power supply and its safety switch";
+
 std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
   switch (problem) {
     case StickProblem::wrong_length:
@@ -20,10 +23,10 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
              ", which its descriptor does not define; the report is ignored";
     case StickProblem::frozen:
       return "the stick's position has not changed for " + std::to_string(a) +
-             " s while the force changed; its readings are ignored until the position changes";
+             " s while the force changed; its readings are ignored until the position changes" + kIfNotFelt;
     case StickProblem::faded_out:
       return "the stick's position has not changed for " + std::to_string(a) +
-             " s under force; the motors are off until you turn them on again";
+             " s under force; the motors are off until you turn them on again" + kIfNotFelt;
     case StickProblem::position_jump:
       return "the stick's position jumped by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:
@@ -52,9 +55,7 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
              "stick's power supply and its safety switch, or run: gearshift devices --calibrate";
     case StickProblem::overpowered:
       return "the lever moved by " + std::to_string(a) +
-             " mm against the stick's full force; if you did not feel that, check the stick's power supply and its "
-             "safety "
-             "switch";
+             " mm against the stick's full force" + kIfNotFelt;
     case StickProblem::no_commands:
       break;
   }

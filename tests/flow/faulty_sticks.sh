@@ -15,7 +15,7 @@ declare -A due=(
   [jump]="the stick's position jumped by [0-9][0-9] % of its range between two reports"
   [wrong-length]="the stick sends a report of 24 bytes, but its descriptor declares 25; the report is ignored
 $blind"
-  [stuck]="the stick's position has not changed for 2 s while the force changed; its readings are ignored until the position changes
+  [stuck]="the stick's position has not changed for 2 s while the force changed; its readings are ignored until the position changes; if you felt no force, check the stick's power supply and its safety switch
 $blind"
   [silent]="$blind"
   [refuses-effects]="a constant force cannot be created, because the stick reports an error"
@@ -28,7 +28,7 @@ forces off: the motors were switched off"
 # Prints the output before the table, without the tour's usual lines. The hand of some tours is stronger than the stick.
 messages_of() {
   sed '/^Five speeds/,$d' "$1.txt" | grep -v -e '^The tour visits these gears: ' -e '^The forces are off' -e '^Shift into ' -e ' engaged$' \
-    -e ' responds after ' -e '^over-push: ' -e "^the lever moved by [0-9]* mm against the stick's full force; if you did not feel that"
+    -e ' responds after ' -e '^over-push: ' -e "^the lever moved by [0-9]* mm against the stick's full force; if you felt no force"
 }
 prints_due_message() {
   [[ "$(messages_of "$1")" == ${due[$1]} ]] && return

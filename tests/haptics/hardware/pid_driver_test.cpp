@@ -252,7 +252,8 @@ TEST_CASE("a faulty stick: one sentence per fault, and no force beyond the comma
     CHECK(stuck.readings < 2300);
     CHECK(stuck.problems ==
           Lines{"the stick's position has not changed for 2 s while the force changed; its readings are ignored "
-                "until the position changes"});
+                "until the position changes; if you felt no force, check the stick's power supply and its safety "
+                "switch"});
     for (const FaultResult* result : {&jumps, &lengths, &stuck}) CHECK(result->beyond < 0.1);
   }
 }
@@ -286,7 +287,7 @@ TEST_CASE("a lever at rest under an almost constant force is not reported as stu
   }
   CHECK(bench.problems() ==
         Lines{"the stick's position has not changed for 3 s under force; the motors are off until you "
-              "turn them on again"});
+              "turn them on again; if you felt no force, check the stick's power supply and its safety switch"});
   CHECK(bench.driver.state().sequence == 6000);  // readings are accepted
   CHECK(bench.driver.state().session == session + 1);
   CHECK(late == 0.0);
@@ -308,7 +309,8 @@ TEST_CASE("a stuck sensor under a constant force: the force fades out, and the f
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.problems() ==
           Lines{"the stick's position has not changed for 2 s while the force changed; its readings are ignored "
-                "until the position changes"});
+                "until the position changes; if you felt no force, check the stick's power supply and its safety "
+                "switch"});
     CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.state().time_ns) > 0.3);  // readings are dropped
 
     bench.stick.faults.stuck = false;  // the sensor works from now on
