@@ -266,13 +266,15 @@ void Controllers::Node::close_file() {
 void Controllers::Node::read() {
   if (device == nullptr) return;
   input_event event;
-  std::set<unsigned> newly_down;  // also those that were released since
+  std::set<unsigned> newly_down;                  // also those that were released since
+  std::set<std::pair<unsigned, bool>> deflected;  // codes of axes, and whether the value was positive
   int result = LIBEVDEV_READ_STATUS_SUCCESS;
   while (result >= 0) {
     // After an overflow of the kernel's queue (LIBEVDEV_READ_STATUS_SYNC), libevdev asks for the present state.
     const bool overflowed = result == LIBEVDEV_READ_STATUS_SYNC;
     result = libevdev_next_event(device, overflowed ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &event);
     if (result >= 0 && event.type == EV_KEY && event.value != 0) newly_down.insert(event.code);
+    if (result >= 0 && event.type == EV_ABS && event.value != 0) deflected.insert({event.code, event.value > 0});
     if (overflowed && result == -EAGAIN) result = LIBEVDEV_READ_STATUS_SUCCESS;
   }
   is_gone = result != -EAGAIN;
@@ -280,15 +282,21 @@ void Controllers::Node::read() {
   state.buttons.clear();
   state.tapped.clear();
   for (const unsigned code : axes) state.axes.push_back(centred(*libevdev_get_abs_info(device, code)));
-  for (const unsigned code : buttons) {
-    const bool is_down = libevdev_get_event_value(device, EV_KEY, code) != 0;
-    if (!is_down && newly_down.contains(code)) state.tapped.push_back(state.buttons.size());
-    state.buttons.push_back(is_down || newly_down.contains(code) ? 1 : 0);
-  }
-  for (const unsigned code : hats) {
-    const int x = libevdev_get_event_value(device, EV_ABS, code);
-    const int y = libevdev_get_event_value(device, EV_ABS, code + 1);
-    for (const bool pressed : {y<0, x> 0, y > 0, x < 0}) state.buttons.push_back(pressed ? 1 : 0);
+  const auto add_button = [this](bool is_down, bool was_down) {
+    if (!is_down && was_down) state.tapped.push_back(state.buttons.size());
+    state.buttons.push_back(is_down || was_down ? 1 : 0);
+  };
+  for (const unsigned code : buttons)
+    add_button(libevdev_get_event_value(device, EV_KEY, code) != 0, newly_down.contains(code));
+  for (const unsigned x : hats) {
+    const auto add_direction = [&](unsigned code, bool is_positive) {
+      const int value = libevdev_get_event_value(device, EV_ABS, code);
+      add_button(is_positive ? value > 0 : value < 0, deflected.contains({code, is_positive}));
+    };
+    add_direction(x + 1, false);
+    add_direction(x, true);
+    add_direction(x + 1, true);
+    add_direction(x, false);
   }
 }
 

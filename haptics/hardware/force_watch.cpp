@@ -15,7 +15,7 @@ struct Hand {
   constexpr bool is_elastic() const noexcept { return grip_stiffness > 0.0; }
 };
 // No hand; hands as in hand.h and around them; the skin of a heavy hand; hands that let go or push suddenly; heavy hands
-// behind a springy grip, which strike a wall like none of the others.
+// behind a springy grip, which strike a wall like none of the others. One is there twice for an even number (kRigid).
 constexpr std::array<Hand, 20> kAnyHand{{{{0.0, 0.0, 0.0}, 1.0},
                                          {{0.02, 2.0, 100.0}, 8.0},
                                          {{0.1, 5.0, 200.0}, 12.0},
@@ -104,14 +104,14 @@ ForceWatch::ForceWatch(const DeviceSpec& spec, double lag) noexcept
   static_assert(!kAnyHand[kRigid - 1].is_elastic() && kAnyHand[kRigid].is_elastic());
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
-    axis.handle = i == 0 ? spec.axis_x : spec.axis_y;
+    const AxisModel& handle = i == 0 ? spec.axis_x : spec.axis_y;
     axis.reach = spec.workspace[i];
     axis.max_force = spec.max_force[i];
     for (std::size_t hand = 0; hand < kHands; ++hand) {
       const AxisModel body = hand < kRigid ? kAnyHand[hand].body : AxisModel{0.0, 0.0, 0.0};
-      axis.mobility[hand] = 1.0 / (axis.handle.mass + body.mass);
-      axis.damping[hand] = axis.handle.damping + body.damping;
-      axis.stiffness[hand] = axis.handle.stiffness + body.stiffness;
+      axis.mobility[hand] = 1.0 / (handle.mass + body.mass);
+      axis.damping[hand] = handle.damping + body.damping;
+      axis.stiffness[hand] = handle.stiffness + body.stiffness;
     }
   }
 }
@@ -198,8 +198,10 @@ void ForceWatch::predict(Axis& axis, const AxisForces& forces, double seconds) n
   auto& [px, pv, ph, pb, pw] = axis.covariance;  // rows
   for (std::size_t i = 0; i < kRigid; ++i) {
     const double step = s * axis.mobility[i], hold = -axis.stiffness[i] * step, keep = 1.0 - axis.damping[i] * step;
-    const double xv = px[1][i] + s * pv[1][i], xh = px[2][i] + s * pv[2][i], vx = hold * px[0][i] + keep * px[1][i] + step * px[2][i],
-                 vv = hold * px[1][i] + keep * pv[1][i] + step * pv[2][i], vh = hold * px[2][i] + keep * pv[2][i] + step * ph[2][i];
+    const double xv = px[1][i] + s * pv[1][i], xh = px[2][i] + s * pv[2][i],
+                 vx = hold * px[0][i] + keep * px[1][i] + step * px[2][i],
+                 vv = hold * px[1][i] + keep * pv[1][i] + step * pv[2][i],
+                 vh = hold * px[2][i] + keep * pv[2][i] + step * ph[2][i];
     px[0][i] += s * (px[1][i] + xv);
     px[1][i] = vx + s * vv;
     px[2][i] = xh;
@@ -215,13 +217,15 @@ void ForceWatch::predict(Axis& axis, const AxisForces& forces, double seconds) n
                  body_hold = -kBodyStiffness[i] * body_step - body_pull,
                  body_keep = 1.0 - kBodyDamping[i] * body_step - body_drag;
     // The transition of a column, then of a row.
-    const auto speed = [=](double x, double v, double b, double w) { return hold * x + keep * v + pull * b + drag * w; };
+    const auto speed = [=](double x, double v, double b, double w) {
+      return hold * x + keep * v + pull * b + drag * w;
+    };
     const auto body_speed = [=](double x, double v, double h, double b, double w) {
       return body_pull * x + body_drag * v + body_step * h + body_hold * b + body_keep * w;
     };
-    const double xx = px[0][i], xv = px[1][i], xh = px[2][i], xb = px[3][i], xw = px[4][i], vv = pv[1][i], vh = pv[2][i],
-                 vb = pv[3][i], vw = pv[4][i], hh = ph[2][i], hb = ph[3][i], hw = ph[4][i], bb = pb[3][i], bw = pb[4][i],
-                 ww = pw[4][i];
+    const double xx = px[0][i], xv = px[1][i], xh = px[2][i], xb = px[3][i], xw = px[4][i], vv = pv[1][i],
+                 vh = pv[2][i], vb = pv[3][i], vw = pv[4][i], hh = ph[2][i], hb = ph[3][i], hw = ph[4][i],
+                 bb = pb[3][i], bw = pb[4][i], ww = pw[4][i];
     const double Xx = xx + s * xv, Xv = xv + s * vv, Xh = xh + s * vh, Xb = xb + s * vb, Xw = xw + s * vw;
     const double Vx = speed(xx, xv, xb, xw), Vv = speed(xv, vv, vb, vw), Vh = speed(xh, vh, hb, hw),
                  Vb = speed(xb, vb, bb, bw), Vw = speed(xw, vw, bw, ww);

@@ -73,15 +73,14 @@ class ForceWatch {
   static constexpr std::size_t kStates = 5, kRigidStates = 3;
   using Values = std::array<double, kHands>;  // one for each hand
   struct Estimate {
-    // [m] [m/s] [N], and [m] [m/s] of an elastic hand's mass
-    std::array<Values, kStates> state{};
-    Values likelihood{};  // [nat] logarithm, fading
+    std::array<Values, kStates> state{};  // [m] [m/s] [N] of the hand, and [m] [m/s] of an elastic hand's mass
+    Values likelihood{};                  // [nat] logarithm, fading
   };
   struct Axis {
-    AxisModel handle;
-    double reach = 0.0;                                       // [m]
-    double max_force = 0.0;                                   // [N]
-    Values mobility{}, damping{}, stiffness{};  // 1 / mass ... of the handle with a rigid hand, or without an elastic one
+    double reach = 0.0;      // [m]
+    double max_force = 0.0;  // [N]
+    // [1/kg] 1 / mass, [N s/m] and [N/m] of the handle, together with a rigid hand
+    Values mobility{}, damping{}, stiffness{};
     std::array<std::array<Values, kStates>, kStates> covariance{};  // only [i][j] with i <= j
     std::array<Estimate, kExplanations> estimate{};
     std::array<double, kExplanations> likelihood{};  // [nat] with the best of all hands

@@ -54,8 +54,7 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
       return "the lever does not follow the stick's forces; the motors are off until you turn them on again; check the "
              "stick's power supply and its safety switch, or run: gearshift devices --calibrate";
     case StickProblem::overpowered:
-      return "the lever moved by " + std::to_string(a) +
-             " mm against the stick's full force" + kIfNotFelt;
+      return "the lever moved by " + std::to_string(a) + " mm against the stick's full force" + kIfNotFelt;
     case StickProblem::no_commands:
       break;
   }

@@ -1,6 +1,8 @@
 // Tests of ForceWatch: a mass that a hand holds, in closed form, and sticks that drive otherwise than calibrated.
 #include "haptics/hardware/force_watch.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -142,6 +144,38 @@ TEST_CASE("motion that a force causes: right, reversed and silent forces on a ma
       }
     }
   }
+}
+
+// The watch runs in the haptic cycle. Late readings must not make it later.
+TEST_CASE("what a reading costs after a gap") {
+  DeviceSpec spec;
+  spec.workspace = dvec2(0.05);
+  spec.axis_x = spec.axis_y = kPaperAxisX;
+  const auto processor_time = [] {  // [us] of this thread
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+  };
+  std::string table = "ms between readings | us of the processor\n";
+  for (const int gap : {1, 2, 4, 8, 16, 20, 21, 50, 100}) {
+    ForceWatch watch(spec, 0.003);
+    double least = HUGE_VAL;  // other programs may delay the others
+    for (int ms = 0; ms < 50 * gap; ++ms) {
+      StickForces forces;
+      forces[0] = forces[1] = {5.0 * std::sin(0.07 * ms), -0.01, 0.01, 1000.0, 1.0};
+      watch.on_output(forces, std::int64_t{1'000'000} * ms);
+      if (ms % gap != 0) continue;
+      const double before = processor_time();
+      watch.on_reading(0.01 * dvec2(std::sin(0.03 * ms), std::cos(0.02 * ms)), std::int64_t{1'000'000} * ms);
+      if (ms > 0) least = std::min(least, processor_time() - before);
+    }
+    CAPTURE(gap);
+#ifndef GEARSHIFT_TEST_IS_SLOW
+    CHECK(least < 50.0);
+#endif
+    table += std::to_string(gap) + " | " + number_text(least, 1) + '\n';
+  }
+  MESSAGE(table);
 }
 
 TEST_CASE("no false alarm on a tour, with any hand, delay and interval") {
