@@ -8,6 +8,7 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_train_verb(app, action);
   add_demo_verb(app, action);
   add_lesson_verb(app, action);
+  add_drive_verb(app, action);
   add_tour_verb(app, action);
   add_render_verb(app, action);
   add_gate_verb(app, action);

@@ -16,14 +16,6 @@ double side_of(const haptics::Gate& gate, int gear) noexcept {
   return slot == haptics::kNoSlot ? 0.0 : static_cast<double>(static_cast<int>(haptics::slot_of(gate, slot).side));
 }
 
-bool closes_after(const haptics::Gate& gate, int gear, int from) noexcept {
-  return std::any_of(haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(),
-                     [&](const haptics::Lockout& lockout) {
-                       return lockout.kind == haptics::LockoutKind::after_gear &&
-                              lockout.slot == haptics::slot_of_gear(gate, gear) && lockout.after_gear == from;
-                     });
-}
-
 }  // namespace
 
 std::optional<int> SimulatedDriver::wanted_gear(const vehicle::DriveSample& now) const {
@@ -226,12 +218,7 @@ void SimulatedDriver::reach(const vehicle::DriveSample& now, int gear) {
 }
 
 std::vector<haptics::HandStroke> SimulatedDriver::strokes_to(glm::dvec2 from, int old_gear, int gear) const {
-  haptics::ShiftStyle style;
-  style.pace = skill_.pace;
-  style.reaction = kStrokeDelay;
-  std::vector<int> gears{gear};
-  if (closes_after(gate_, gear, old_gear)) gears.insert(gears.begin(), haptics::kNeutralGear);
-  return haptics::shift_strokes(gate_, from, gears, style);
+  return strokes_to_gear(gate_, from, old_gear, gear, skill_.pace);
 }
 
 // Returns the strokes to a point just beyond the mouth of the gear's slot.

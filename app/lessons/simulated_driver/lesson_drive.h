@@ -11,6 +11,7 @@
 #include "app/lessons/assessment/lesson.h"
 #include "app/lessons/assessment/lesson_result.h"
 #include "app/lessons/simulated_driver/driver_skill.h"
+#include "app/lessons/simulated_driver/simulated_drive.h"
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/gate/gate.h"
@@ -32,12 +33,9 @@ struct LessonDriveConfig {
   double rate = 1000.0;                                       // [Hz] cycles per second, 100 to 4000
   std::filesystem::path trace;                                // empty: none
   std::function<void(const vehicle::DriveSample&)> on_cycle;  // called every cycle; may be empty
-  // Called for each event of a cycle, before on_cycle; may be empty.
+  // Called for each event of a cycle, before `judge` and on_cycle; may be empty.
   std::function<void(const haptics::HapticEvent&)> on_event;
 };
-
-// Returns the gate, compiled for the simulated lever that drive_lesson() uses. Throws like compile_gate().
-haptics::Gate driven_gate(const haptics::GateLayout& layout);
 
 // State of the lesson after a cycle, for the driver's next action.
 struct LessonProgress {

@@ -6,6 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/lessons/simulated_driver/driver_constants.h"
+#include "haptics/loop/shift_script.h"
+
 namespace gearshift::lessons {
 namespace {
 
@@ -17,7 +20,26 @@ constexpr double kArrivalTolerance = 0.001;  // [m]
 constexpr double kRelaxationTime = 0.025;    // [s]
 constexpr double kMaxCornerCut = 0.005;      // [m] the hand may cut a corner by this distance: half a slot's width
 
+bool closes_after(const haptics::Gate& gate, int gear, int from) noexcept {
+  return std::any_of(haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(),
+                     [&](const haptics::Lockout& lockout) {
+                       return lockout.kind == haptics::LockoutKind::after_gear &&
+                              lockout.slot == haptics::slot_of_gear(gate, gear) && lockout.after_gear == from;
+                     });
+}
+
 }  // namespace
+
+std::vector<haptics::HandStroke> strokes_to_gear(const haptics::Gate& gate, glm::dvec2 from, int engaged, int gear,
+                                                 double pace) {
+  haptics::ShiftStyle style;
+  style.pace = pace;
+  style.reaction = kStrokeDelay;
+  if (haptics::is_sequential(gate)) style.engaged = engaged;
+  std::vector<int> gears{gear};
+  if (closes_after(gate, gear, engaged)) gears.insert(gears.begin(), haptics::kNeutralGear);
+  return haptics::shift_strokes(gate, from, gears, style);
+}
 
 StrokeHand::StrokeHand(double period) noexcept : period_(period), effort_decay_(std::exp(-period / kRelaxationTime)) {}
 

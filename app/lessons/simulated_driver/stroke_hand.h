@@ -6,8 +6,14 @@
 #include <vector>
 
 #include "haptics/device/scripted_hand.h"
+#include "haptics/gate/gate.h"
 
 namespace gearshift::lessons {
+
+// Strokes from `from` [m] to `gear`, by way of neutral if the gate locks the direct way. `engaged`: the gear that is
+// in now. `pace`: mean speed [m/s].
+std::vector<haptics::HandStroke> strokes_to_gear(const haptics::Gate& gate, glm::dvec2 from, int engaged, int gear,
+                                                 double pace);
 
 // Makes minimum-jerk strokes as ScriptedHand does, but waits while something blocks the lever. Without strokes, the
 // hand has released the lever: its target follows the lever, and the lever feels only the push of set_lean().
