@@ -21,6 +21,7 @@ namespace {
 // haptics/loop/README.md.
 constexpr double kQuiet = 0.35;           // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
 constexpr double kQuietObserved = 0.58;   // [1] observer hold: limit of stiffness*lag^2/mass
+constexpr double kQuietOnSpring = 0.5;    // [1] replaces kQuietObserved on a device's springs of more than m / tau^2
 constexpr double kObservedTau = 0.0125;   // [s] longest lag at which the observer hold is preferred
 constexpr double kGainMargin = 1.1;       // [1] factor on the stiffness, a margin for plant error and jitter
 constexpr double kMaxCountForce = 3.0;    // [N] largest change of a damping force by one encoder count
@@ -33,6 +34,9 @@ constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.
 constexpr const char* kCoarseLaw =
     "with so coarse an encoder, the half-sample hold is quiet only if K <= 0.2 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kSpringLaw =
+    "on the device's springs of more than m / tau^2, the observer hold is quiet only if K <= 0.5 m / tau^2, with tau = "
+    "(delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
@@ -105,6 +109,9 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   const auto limit_stiffness = [&](double factor, const char* law) {
     limiter.limit(tuning.wall_stiffness, factor * lighter_mass(spec) / (tau * tau), &HapticTuning::wall_stiffness, law);
   };
+  // On stiff springs a bare lever swings so fast that the late loop hardly damps it.
+  const bool on_spring = usable_wall_stiffness(spec) > lighter_mass(spec) / (tau * tau);
+  if (observed && on_spring) return limit_stiffness(kQuietOnSpring, kSpringLaw);
   if (observed) return limit_stiffness(kQuietObserved, kObservedLaw);
   limit_stiffness(kQuiet, kQuietLaw);
   if (!can_observe(config, spec)) limit_stiffness(kQuietCoarse, kCoarseLaw);

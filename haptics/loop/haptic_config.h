@@ -162,9 +162,10 @@ void check_config(const HapticConfig& config);
 void check_device(const DeviceSpec& spec);
 
 // Limits the wanted tuning to what works on this device with every hand of kNamedHands, the bare handle included:
-//   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58) and damping B <= 0.35 m / tau (observer hold: exactly
-//              0.7), with the mass m of the lighter axis and the lag tau = (delay + 1) * period. The factors were found
-//              by a search over hands, impact phases, quantisation, jitter and plant error.
+//   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58, or 0.5 on device springs of more than m / tau^2) and
+//              damping B <= 0.35 m / tau (observer hold: exactly 0.7), with the mass m of the lighter axis and the lag tau
+//              = (delay + 1) * period. The factors were found by a search over hands, impact phases, quantisation, jitter
+//              and plant error.
 //   resolution One encoder count q changes a damping force by at most 3 N (B q / T), and a wall stops a lever of 0.1 m/s
 //              within 3 counts or more. If a count changes the observed velocity by more than 0.125 m/s, the half-sample
 //              hold replaces the observer, with K <= 0.2 m / tau^2.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -93,6 +94,19 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau (observ
         CHECK(used.limit_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
       }
     }
+  }
+}
+
+TEST_CASE("quiet on a device's springs: K <= 0.5 m / tau^2 above springs of m / tau^2, 0.58 m / tau^2 below") {
+  DeviceSpec spec;
+  spec.delay = 5;
+  const double unit = 0.086 / (0.006 * 0.006);  // 2389 N/m
+  HapticConfig config;
+  for (const auto& [own, factor] : {std::pair{1000.0, 0.58}, {2300.0, 0.58}, {2500.0, 0.5}, {3000.0, 0.5}}) {
+    spec.device_wall_stiffness = {own, own};
+    const AdmittedTuning found = admit_tuning(config, spec, paper_gate());
+    CHECK(found.hold == ContactHold::observer);
+    CHECK(found.tuning.wall_stiffness == doctest::Approx(own + factor * unit));
   }
 }
 
