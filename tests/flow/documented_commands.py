@@ -33,6 +33,7 @@ SKIPPED_FOLDERS = {"build", "out", ".git"}
 # Values for the arguments in capitals, for one verb ("gate NAME") or for all verbs ("FILE").
 VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
+          "drive SCRIPT": "script.csv",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
 # Commands that are not run here. Key: a pattern of the command. Value: the reason; the file that runs the command
@@ -206,6 +207,7 @@ class Runner:
         for command in ("gearshift tour --gate my_gate.toml --out drive && cp drive/tour.trace .",
                         "gearshift lesson reverse --trace lesson.trace", "cp lesson.trace drive.trace",
                         "head -c 100000 lesson.trace >killed.trace",
+                        "printf 'time_s,throttle\\n0,0\\n1,0.2\\n' >script.csv",
                         "gearshift lesson moving_off --learner Ada --runs 12",
                         "gearshift report --learner Ada --comment 12 Good. --by Bo",
                         "gearshift report --learner Ada --comment 11 Calm. --by Bo",
