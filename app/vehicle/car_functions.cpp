@@ -1,9 +1,15 @@
 // Curves and ratios derived from a car's data.
 #include <algorithm>
+#include <cmath>
 
 #include "app/vehicle/car_spec.h"
 
 namespace gearshift::vehicle {
+namespace {
+// A compressed cylinder pushes back what it took, except for the gas that leaks meanwhile. So compression resists only
+// an engine that hardly turns. No source found for the speed: engineering value.
+constexpr double kCompressionSpeed = 4.0;  // [rad/s] at which a fraction 1/e is left
+}  // namespace
 
 double shaft_per_road(const CarSpec& car, int gear) noexcept {
   const GearboxSpec& box = car.gearbox;
@@ -25,7 +31,10 @@ double full_torque(const EngineSpec& engine, double speed) noexcept {
 }
 
 double friction_torque(const EngineSpec& engine, double speed) noexcept {
-  return engine.friction + (engine.friction_slope + engine.friction_square * speed) * speed;
+  const double turning = std::abs(speed);
+  const double friction = engine.friction + (engine.friction_slope + engine.friction_square * turning) * turning;
+  if (turning > kMaxCompressedSpeed) return friction;
+  return friction + engine.compression * std::exp(-turning / kCompressionSpeed);
 }
 
 }  // namespace gearshift::vehicle

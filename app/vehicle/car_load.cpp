@@ -14,7 +14,9 @@
 namespace gearshift::vehicle {
 namespace {
 
-constexpr const char* kName = "car";
+// The name of the physics in a trace. A change that makes older drives replay differently must change it.
+constexpr const char* kName = "car-2";
+constexpr std::string_view kOldName = "car";
 constexpr int kEngineOff = 0, kEngineRunning = 1, kStalled = 2;  // codes for the engine's state in replay_parameters()
 
 double force_scale(double force_limit) {
@@ -78,9 +80,10 @@ CarStart complete_start(const CarSpec& car, CarStart start) {
 // Text for make_car_load(): a line of values, a line with the car file's name, then the car file's text. Each double is
 // read back as exactly the same value.
 std::string format_parameters(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed, start.gear,
-                     engine_code(start), *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,
-                     car.name + ".toml", car.text);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed,
+                     start.gear, engine_code(start), *start.engine_speed, *start.shaft_speed, start.distance,
+                     start.slip_energy, start.engine.integral, start.engine.lift, start.engine.cranked,
+                     start.clutch_temperature, car.name + ".toml", car.text);
 }
 
 }  // namespace
@@ -95,6 +98,8 @@ CarStart start_from(const VehicleState& state) noexcept {
   start.shaft_speed = state.shaft_speed;
   start.distance = state.distance;
   start.slip_energy = state.slip_energy;
+  start.engine = {state.idle_integral, state.idle_lift, state.cranked};
+  start.clutch_temperature = state.clutch_temperature;
   return start;
 }
 
@@ -141,7 +146,8 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
     const double ratio = std::abs(per_road) * car.body.wheel_radius / car.gearbox.final_drive;
     gear_of_slot_[i] = {slot.gear, per_road, ratio};
   }
-  driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running, start_.stalled);
+  driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running, start_.stalled,
+                   start_.engine, start_.clutch_temperature);
   state_ = driveline_.state();
   state_.distance = start_.distance;
   state_.slip_energy = start_.slip_energy;
@@ -252,7 +258,9 @@ std::unique_ptr<CarLoad> make_car_load(const std::string& parameters, const hapt
   int engine = kEngineOff;
   CarStart start;
   stream >> kind >> force_limit >> seed >> start.road_speed >> start.gear >> engine >> engine_speed >> shaft_speed >>
-      start.distance >> start.slip_energy;
+      start.distance >> start.slip_energy >> start.engine.integral >> start.engine.lift >> start.engine.cranked >>
+      start.clutch_temperature;
+  if (kind == kOldName) throw std::invalid_argument("an earlier version recorded it, whose car drives differently");
   if (!stream || kind != kName || stream.get() != '\n' || !std::getline(stream, file)) return nullptr;
   if (engine < kEngineOff || engine > kStalled) return nullptr;
   start.running = engine == kEngineRunning;

@@ -32,6 +32,8 @@ struct CarStart {
   std::optional<double> shaft_speed;
   double distance = 0.0;     // [m] distance driven before the start
   double slip_energy = 0.0;  // [J] heat dissipated in the clutch before the start
+  EngineState engine;
+  double clutch_temperature = kAirTemperature;  // [C]
 };
 
 // Returns a start that continues from `state`.

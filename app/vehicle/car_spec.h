@@ -13,6 +13,10 @@
 namespace gearshift::vehicle {
 
 inline constexpr std::size_t kMaxTorquePoints = 24;
+inline constexpr double kAirTemperature = 40.0;  // [C] around the clutch of a warm car; engineering value
+// [C] Temperatures of the clutch from which it smells, from which it loses capacity, and at which it has none; in between,
+// capacity falls in proportion. BeamNG warns at 200 C, fades at 300 C, and breaks the clutch at 500 C.
+inline constexpr double kClutchSmells = 200.0, kClutchFades = 300.0, kClutchBurnt = 500.0;
 
 struct TorquePoint {
   double speed = 0.0;   // [rad/s]
@@ -22,12 +26,15 @@ struct TorquePoint {
 struct EngineSpec {
   std::array<TorquePoint, kMaxTorquePoints> full_load{};  // in order of speed; linear between points, zero outside
   std::size_t points = 0;
-  double friction = 9.0;         // [N m] engine friction at standstill, throttle closed
-  double friction_slope = 0.0;   // [N m s] increase of friction per rad/s
-  double friction_square = 0.0;  // [N m s^2] increase of friction per (rad/s)^2
-  double inertia = 0.15;         // [kg m^2] including the flywheel
-  double idle = 84.0;            // [rad/s]
-  double idle_gain = 0.01;       // [s] extra throttle per rad/s below idle
+  double friction = 9.0;            // [N m] engine friction at standstill, throttle closed
+  double friction_slope = 0.0;      // [N m s] increase of friction per rad/s
+  double friction_square = 0.0;     // [N m s^2] increase of friction per (rad/s)^2
+  double compression = 0.0;         // [N m] further friction of an engine at rest, which fades as it turns
+  double inertia = 0.15;            // [kg m^2] including the flywheel
+  double idle = 84.0;               // [rad/s]
+  double idle_gain = 0.01;          // [s] extra throttle per rad/s below idle
+  double idle_integral_gain = 0.0;  // [1] extra throttle per rad/s below idle and second
+  double idle_lift = 0.0;        // [rad/s] how far the idle control raises its speed while a slipping clutch takes hold
   double stall = 37.0;           // [rad/s] below this speed the engine stops firing
   double red_line = 680.0;       // [rad/s] over-rev warning
   double limiter = 690.0;        // [rad/s] fuel is cut above this speed and restored below limiter - limiter_band
@@ -41,10 +48,12 @@ struct EngineSpec {
 };
 
 struct ClutchSpec {
-  double capacity = 240.0;      // [N m] largest torque the clutch transmits, pedal up
-  double bite = 0.75;           // [1] pedal position below which the clutch transmits torque
-  double closed = 0.15;         // [1] pedal position below which capacity is full; quadratic between bite and closed
-  double disc_inertia = 0.006;  // [kg m^2] disc plus input shaft
+  double capacity = 240.0;        // [N m] largest torque the clutch transmits, pedal up
+  double bite = 0.75;             // [1] pedal position below which the clutch transmits torque
+  double closed = 0.15;           // [1] pedal position below which capacity is full; quadratic between bite and closed
+  double disc_inertia = 0.006;    // [kg m^2] disc plus input shaft
+  double heat_capacity = 2000.0;  // [J/K] of disc, pressure plate and flywheel's surface together
+  double cooling = 5.0;           // [W/K] to the air around them
 };
 
 struct GearboxSpec {
@@ -101,6 +110,9 @@ struct CarSpec {
   std::string file;  // for messages
 };
 
+// [rad/s] A faster engine has so little compression left that it counts as none.
+inline constexpr double kMaxCompressedSpeed = 80.0;
+
 // Both functions throw FileError with file, line, key, value and allowed range.
 CarSpec read_car(const std::filesystem::path& file);
 CarSpec parse_car(std::string_view text, const std::string& file_name);
@@ -110,7 +122,7 @@ CarSpec parse_car(std::string_view text, const std::string& file_name);
 double shaft_per_road(const CarSpec& car, int gear) noexcept;
 // Torque at full throttle, net of engine friction [N m]. `speed` is in rad/s.
 double full_torque(const EngineSpec& engine, double speed) noexcept;
-// Engine friction with the throttle closed [N m]. `speed` is in rad/s.
+// Engine friction with the throttle closed, against the rotation in either direction [N m]. `speed` is in rad/s.
 double friction_torque(const EngineSpec& engine, double speed) noexcept;
 
 }  // namespace gearshift::vehicle
@@ -120,46 +132,49 @@ namespace gearshift::haptics {
 
 template <>
 inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>[] = {
-    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0},
-     "Motoring torque at standstill, throttle closed."},
+    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0}, "Motoring torque, standing."},
     {&vehicle::EngineSpec::friction_slope, "friction_slope", "friction_nm_per_krpm",
-     FileRange{0.0, 5000.0, file_unit::kPerKrpm}, "Increase per 1000 rpm."},
+     FileRange{0.0, 5000.0, file_unit::kPerKrpm}, "Per 1000 rpm."},
     {&vehicle::EngineSpec::friction_square, "friction_square", "friction_nm_per_krpm2",
-     FileRange{0.0, 5000.0, file_unit::kPerKrpmSquared}, "Increase per (1000 rpm)^2."},
+     FileRange{0.0, 5000.0, file_unit::kPerKrpmSquared}, "Per (1000 rpm)^2."},
+    {&vehicle::EngineSpec::compression, "compression", "compression_nm", FileRange{0.0, 5000.0}, "Holds it standing."},
     {&vehicle::EngineSpec::inertia, "inertia", "inertia_kgm2", FileRange{0.01, 10.0}, "With the flywheel."},
     {&vehicle::EngineSpec::idle, "idle", "idle_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, ""},
     {&vehicle::EngineSpec::idle_gain, "idle_gain", "idle_throttle_per_krpm", FileRange{0.1, 100.0, file_unit::kPerKrpm},
-     "Extra throttle below idle speed."},
-    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Below it, the engine stops firing."},
+     "Extra throttle."},
+    {&vehicle::EngineSpec::idle_integral_gain, "idle_integral_gain", "idle_throttle_per_krpm_s",
+     FileRange{0.0, 100.0, file_unit::kPerKrpm}, "Per second."},
+    {&vehicle::EngineSpec::idle_lift, "idle_lift", "idle_lift_rpm", FileRange{0.0, 1000.0, file_unit::kRpm},
+     "While the clutch slips."},
+    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, "The engine dies."},
     {&vehicle::EngineSpec::red_line, "red_line", "red_line_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Above it: over-rev warning."},
+     "Over-rev warning."},
     {&vehicle::EngineSpec::limiter, "limiter", "limiter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Above it, the fuel is cut."},
+     "Fuel is cut."},
     {&vehicle::EngineSpec::limiter_band, "limiter_band", "limiter_band_rpm", FileRange{1.0, 1000.0, file_unit::kRpm},
      "Until the fuel returns."},
     {&vehicle::EngineSpec::starter_torque, "starter_torque", "starter_nm", FileRange{1.0, 1000.0}, "At standstill."},
     {&vehicle::EngineSpec::starter_speed, "starter_speed", "starter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Starter's speed without load."},
+     "Without load."},
     {&vehicle::EngineSpec::shift_low, "shift_low", "shift_from_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Lower end of economical upshifts."},
+     "Economical upshifts."},
     {&vehicle::EngineSpec::shift_high, "shift_high", "shift_to_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
      "Upper end."},
     {&vehicle::EngineSpec::lug_below, "lug_below", "lug_below_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Full load below it harms the engine."},
-    {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0},
-     "Vibration at the knob while the engine dies."},
+     "Least under load."},
+    {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0}, "At the knob, dying."},
 };
 static_assert(describes_all(&vehicle::EngineSpec::full_load, &vehicle::EngineSpec::points));
 
 template <>
 inline constexpr Parameter<vehicle::ClutchSpec> kParameters<vehicle::ClutchSpec>[] = {
     {&vehicle::ClutchSpec::capacity, "capacity", "capacity_nm", FileRange{1.0, 10000.0}, "Pedal up."},
-    {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0}, "Pedal where torque begins; 1 is down."},
-    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0},
-     "Pedal of full capacity; quadratic in between."},
+    {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0}, "Torque begins; 1: down."},
+    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0}, "Full capacity; quadratic between."},
     {&vehicle::ClutchSpec::disc_inertia, "disc_inertia", "disc_inertia_kgm2", FileRange{0.0005, 1.0},
      "Disc and input shaft."},
+    {&vehicle::ClutchSpec::heat_capacity, "heat_capacity", "heat_capacity_j_per_k", FileRange{10.0, 1e6}, ""},
+    {&vehicle::ClutchSpec::cooling, "cooling", "cooling_w_per_k", FileRange{0.0, 1000.0}, ""},
 };
 static_assert(DescribesAll<vehicle::ClutchSpec>);
 
@@ -167,17 +182,16 @@ template <>
 inline constexpr Parameter<vehicle::GearboxSpec> kParameters<vehicle::GearboxSpec>[] = {
     {&vehicle::GearboxSpec::reverse, "reverse", "ratio_r", FileRange{0.1, 20.0}, "Reverse."},
     {&vehicle::GearboxSpec::final_drive, "final_drive", "final_drive", FileRange{0.1, 20.0}, ""},
-    {&vehicle::GearboxSpec::drag, "drag", "drag_nm", FileRange{0.0, 20.0}, "Friction of the input shaft."},
+    {&vehicle::GearboxSpec::drag, "drag", "drag_nm", FileRange{0.0, 20.0}, "Input shaft."},
     {&vehicle::GearboxSpec::drag_slope, "drag_slope", "drag_nm_per_krpm", FileRange{0.0, 20.0, file_unit::kPerKrpm},
-     "Increase per 1000 rpm."},
+     "Per 1000 rpm."},
     {&vehicle::GearboxSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0}, "Meshing teeth; 1: lossless."},
 };
 static_assert(describes_all(&vehicle::GearboxSpec::ratio));
 
 template <>
 inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpec>[] = {
-    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5},
-     "Of the cone; a worn ring has less."},
+    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5}, "Cone; worn: less."},
     {&vehicle::SynchroSpec::radius, "radius", "radius_mm", FileRange{5.0, 200.0, file_unit::kMillimetres},
      "Of the cone."},
     {&vehicle::SynchroSpec::cone_angle, "cone_angle", "cone_half_angle_deg", FileRange{3.0, 20.0, file_unit::kDegrees},
@@ -191,7 +205,7 @@ inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpe
      "Of these teeth."},
     {&vehicle::SynchroSpec::teeth, "teeth", "teeth", FileRange{6.0, 120.0}, "Dogs."},
     {&vehicle::SynchroSpec::dog_speed, "dog_speed", "dog_rpm", FileRange{0.5, 100.0, file_unit::kRpm},
-     "Largest difference at which dogs engage."},
+     "Dogs engage below it."},
     {&vehicle::SynchroSpec::lever_ratio, "lever_ratio", "lever_ratio", FileRange{1.0, 30.0},
      "Knob travel divided by sleeve travel."},
     {&vehicle::SynchroSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0},
@@ -207,7 +221,7 @@ inline constexpr Parameter<vehicle::BodySpec> kParameters<vehicle::BodySpec>[] =
      FileRange{100.0, 1000.0, file_unit::kMillimetres}, "Driven wheels."},
     {&vehicle::BodySpec::resistance, "resistance", "resistance_n", FileRange{0.0, 20000.0}, "At standstill."},
     {&vehicle::BodySpec::resistance_slope, "resistance_slope", "resistance_n_per_mps", FileRange{0.0, 100.0},
-     "Increase per m/s."},
+     "Per m/s."},
     {&vehicle::BodySpec::resistance_square, "resistance_square", "resistance_n_per_mps2", FileRange{0.0, 20.0},
      "Air drag per (m/s)^2."},
     {&vehicle::BodySpec::brake_force, "brake_force", "brake_n", FileRange{0.0, 1e6}, "At the rim, pedal down."},

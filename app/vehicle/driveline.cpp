@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kMaxStep = 0.5;       // [s]
 constexpr double kMaxSubstep = 0.002;  // [s] longest step of the midpoint rule
-constexpr double kGravity = 9.81;      // [m/s^2]
+// [s] The same for an engine that turns so slowly that its compression changes steeply.
+constexpr double kMaxCompressedSubstep = 2.5e-4;
+constexpr double kGravity = 9.81;  // [m/s^2]
 // [N m] Largest torque of one friction element. It brings a clutch disc of usual inertia to the engine's speed within
 // 0.1 ms.
 constexpr double kMaxTorque = 1e5;
@@ -47,6 +49,10 @@ double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept {
   return clutch.capacity * fraction * fraction;
 }
 
+double clutch_fade(double temperature) noexcept {
+  return std::clamp((kClutchBurnt - temperature) / (kClutchBurnt - kClutchFades), 0.0, 1.0);
+}
+
 Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
   car_.clutch.capacity = std::min(car.clutch.capacity, kMaxTorque);
   chain_.inertia = {car.engine.inertia, car.clutch.disc_inertia, car.body.mass + car.body.rotating};
@@ -57,9 +63,13 @@ Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
   place(car.engine.idle, 0.0, 0.0, true);
 }
 
-void Driveline::place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled) noexcept {
-  speed_ = {std::max(0.0, finite(engine_speed)), finite(shaft_speed), finite(road_speed)};
+void Driveline::place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled,
+                      const EngineState& engine, double clutch_temperature) noexcept {
+  speed_ = {finite(engine_speed), finite(shaft_speed), finite(road_speed)};
   engine_.set(running, stalled);
+  engine_.set_state(engine);
+  temperature_ = state_.clutch_temperature = finite(clutch_temperature);
+  heating_ = 0.0;
   meshed_ = cone_gear_ = haptics::kNeutralGear;
   chain_.link = GearLink::open;
   now_ = {};
@@ -71,6 +81,9 @@ void Driveline::place(double engine_speed, double shaft_speed, double road_speed
   state_.running = running;
   state_.stalled = engine_.stalled();
   state_.fuel_cut = state_.cranking = false;
+  state_.idle_integral = engine_.state().integral;
+  state_.idle_lift = engine_.state().lift;
+  state_.cranked = engine_.state().cranked;
   state_.shudder = 0.0;
   state_.shift_advice = 0;
 }
@@ -84,14 +97,17 @@ void Driveline::step(const DrivelineInput& in, double seconds) noexcept {
   length_ = seconds > 0.0 ? std::min(seconds, kMaxStep) : 0.0;
   set_input(in);
   if (!(length_ > 0.0)) update_modes();
-  const double before = speed_[engine_body];
   while (time_ < length_) {
-    const double next = std::min({length_, time_ + kMaxSubstep, next_kink(time_)});
+    const double next = std::min({length_, time_ + max_substep(), next_kink(time_)});
     advance(next - time_);
     time_ = next;
   }
-  engine_.add_crank_angle(0.5 * length_ * (before + speed_[engine_body]));
-  publish_state(clutch_capacity(car_.clutch, pedal_.to));
+  publish_state(clutch_capacity(car_.clutch, pedal_.to) * clutch_fade(temperature_));
+}
+
+double Driveline::max_substep() const noexcept {
+  const bool is_slow = speed_[engine_body] != 0.0 && std::abs(speed_[engine_body]) < kMaxCompressedSpeed;
+  return is_slow && car_.engine.compression > 0.0 ? kMaxCompressedSubstep : kMaxSubstep;
 }
 
 void Driveline::set_input(const DrivelineInput& in) noexcept {
@@ -155,7 +171,7 @@ double Driveline::next_kink(double after) const noexcept {
   return next;
 }
 
-Driveline::Loads Driveline::loads_at(const PerBody& speed, double time) const noexcept {
+Driveline::Loads Driveline::loads_at(const PerBody& speed, double time, const EngineState& engine) const noexcept {
   const double fraction = length_ > 0.0 ? time / length_ : 1.0;
   const double shaft = speed[shaft_body], road = speed[car_body];
   const BodySpec& body = car_.body;
@@ -163,15 +179,25 @@ Driveline::Loads Driveline::loads_at(const PerBody& speed, double time) const no
   loads.lift = lift_.at(fraction);
   loads.brakes = brakes_.at(fraction);
   ChainLoads& chain = loads.chain;
-  chain.push[engine_body] = engine_.torque(speed[engine_body], throttle_.at(fraction));
+  chain.push[engine_body] = engine_.torque(speed[engine_body], throttle_.at(fraction), engine);
   chain.push[shaft_body] = -car_.gearbox.drag_slope * shaft;
   chain.push[car_body] = -(body.resistance_slope + body.resistance_square * std::abs(road)) * road - loads.lift;
   chain.ground[engine_body] = friction_torque(car_.engine, speed[engine_body]);
   chain.ground[shaft_body] = car_.gearbox.drag;
   chain.ground[car_body] = body.resistance + loads.brakes;
-  chain.clutch = clutch_capacity(car_.clutch, pedal_.at(fraction));
+  const double temperature = temperature_ + heating_ * (time - time_);
+  chain.clutch = clutch_capacity(car_.clutch, pedal_.at(fraction)) * clutch_fade(temperature);
   chain.cone = cone_.at(fraction);
   return loads;
+}
+
+// The engine control's state `seconds` after the present one, if its rate is that of this speed, these loads and `at`.
+EngineState Driveline::engine_after(double seconds, const PerBody& speed, const Loads& loads,
+                                    const EngineState& at) const noexcept {
+  const double slip_torque = now_.mode.clutch > 0 ? loads.chain.clutch : 0.0;
+  const EngineState rate = engine_.state_rate(speed[engine_body], slip_torque, at);
+  const EngineState& now = engine_.state();
+  return {now.integral + seconds * rate.integral, now.lift + seconds * rate.lift, now.cranked + seconds * rate.cranked};
 }
 
 void Driveline::advance(double seconds) noexcept {
@@ -211,33 +237,35 @@ void Driveline::advance(double seconds) noexcept {
 Driveline::Trial Driveline::try_step(double seconds) const noexcept {
   Trial trial;
   const PerBody half = advance_speeds(chain_, now_.mode, speed_, now_.motion.rate, 0.5 * seconds);
-  trial.loads = loads_at(half, time_ + 0.5 * seconds);
+  const EngineState engine_half = engine_after(0.5 * seconds, speed_, present_loads(), engine_.state());
+  trial.loads = loads_at(half, time_ + 0.5 * seconds, engine_half);
   trial.motion = motion_in_mode(chain_, trial.loads.chain, now_.mode);
   trial.speed = advance_speeds(chain_, now_.mode, speed_, trial.motion.rate, seconds);
-  trial.ends_mode = reversed(trial.speed, trial.loads).any() || engine_.would_change(trial.speed[engine_body]);
+  trial.engine = engine_after(seconds, half, trial.loads, engine_half);
+  trial.ends_mode =
+      reversed(trial.speed, trial.loads).any() || engine_.would_change(trial.speed[engine_body], trial.engine);
   if (trial.ends_mode) return trial;
-  const Loads at_end = loads_at(trial.speed, time_ + seconds);
+  const Loads at_end = loads_at(trial.speed, time_ + seconds, trial.engine);
   trial.end = {now_.mode, motion_in_mode(chain_, at_end.chain, now_.mode)};
   trial.ends_mode = trial.end.motion.violation > 0.0;
   return trial;
 }
 
-// Returns the elements whose slip speed or rotation has changed sign. Elements without friction are omitted, except the
-// engine, which cannot turn backwards.
+// Returns the elements whose slip speed or rotation has changed sign. Elements without friction are omitted.
 Driveline::Reversed Driveline::reversed(const PerBody& speed, const Loads& loads) const noexcept {
   const FrictionMode& mode = now_.mode;
   const ChainLoads& capacity = loads.chain;
   Reversed elements;
   elements.clutch = mode.clutch * (speed[engine_body] - speed[shaft_body]) < 0.0 && capacity.clutch > 0.0;
   elements.cone = mode.cone * cone_slip(chain_, speed) < 0.0 && capacity.cone > 0.0;
-  for (std::size_t b = 0; b < 3; ++b)
-    elements.turn[b] = mode.turn[b] * speed[b] < 0.0 && (b == engine_body || capacity.ground[b] > 0.0);
+  for (std::size_t b = 0; b < 3; ++b) elements.turn[b] = mode.turn[b] * speed[b] < 0.0 && capacity.ground[b] > 0.0;
   return elements;
 }
 
 void Driveline::accept(const Trial& trial, double seconds) noexcept {
   account_energy(trial.loads, trial.motion, trial.speed, seconds);
   speed_ = trial.speed;
+  engine_.set_state(trial.engine);
   if (!trial.ends_mode) now_ = trial.end;
 }
 
@@ -260,7 +288,7 @@ void Driveline::update_modes() noexcept {
   known.clutch = sign(speed_[engine_body] - speed_[shaft_body]);
   known.cone = sign(cone_slip(chain_, speed_));
   for (std::size_t b = 0; b < 3; ++b) known.turn[b] = sign(speed_[b]);
-  now_ = solve_modes(chain_, loads_at(speed_, time_).chain, known, now_.mode);
+  now_ = solve_modes(chain_, present_loads().chain, known, now_.mode);
 }
 
 // Impulse time stepping: loads and limits are held constant over the whole interval. All elements are solved together
@@ -268,7 +296,8 @@ void Driveline::update_modes() noexcept {
 // first-order accurate, but always has a solution.
 void Driveline::advance_by_impulses(double seconds) noexcept {
   ++fallbacks_;
-  const Loads loads = loads_at(speed_, time_);
+  const Loads loads = present_loads();
+  engine_.set_state(engine_after(seconds, speed_, loads, engine_.state()));
   ChainLoads with_momentum = loads.chain;
   for (std::size_t b = 0; b < 3; ++b) with_momentum.push[b] += chain_.inertia[b] * speed_[b] / seconds;
   now_ = solve_modes(chain_, with_momentum, {}, now_.mode);
@@ -291,7 +320,9 @@ void Driveline::account_energy(const Loads& loads, const ChainMotion& motion, co
   const double by_brakes = chain.ground[car_body] > 0.0 ? loads.brakes / chain.ground[car_body] : 0.0;
   energy_.engine += chain.push[engine_body] * distance[engine_body];
   energy_.friction -= motion.ground[engine_body] * distance[engine_body];
-  energy_.clutch += motion.clutch * (distance[engine_body] - distance[shaft_body]);
+  const double slip_heat = motion.clutch * (distance[engine_body] - distance[shaft_body]);
+  energy_.clutch += slip_heat;
+  heat_clutch(slip_heat, seconds);
   const double in_gear = motion.gear * distance[shaft_body] - motion.drive * distance[car_body];
   (chain_.link == GearLink::cone ? energy_.cone : energy_.teeth) += in_gear;
   energy_.shaft_drag -= (chain.push[shaft_body] + motion.ground[shaft_body]) * distance[shaft_body];
@@ -303,8 +334,7 @@ void Driveline::account_energy(const Loads& loads, const ChainMotion& motion, co
 
 void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  // Changes -0 to 0: when the car stops the engine, the computed speed can be -0.
-  const double engine = std::max(0.0, speed_[engine_body]);
+  const double engine = speed_[engine_body] + 0.0;  // changes -0 to 0
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.pedals.throttle);
   state_.running = engine_.running();
@@ -312,12 +342,18 @@ void Driveline::publish_state(double capacity) noexcept {
   state_.over_revved = engine > car_.engine.red_line;
   state_.fuel_cut = engine_.fuel_cut();
   state_.cranking = engine_.is_cranking_at(engine);
+  state_.idle_integral = engine_.state().integral;
+  state_.idle_lift = engine_.state().lift;
+  state_.cranked = engine_.state().cranked;
 
   state_.clutch_capacity = capacity;
   state_.clutch_torque = motion.clutch;
   state_.shaft_speed = speed_[shaft_body];
   state_.slip_power = motion.clutch * (engine - state_.shaft_speed);
   state_.slip_energy = energy_.clutch;
+  state_.clutch_temperature = temperature_;
+  state_.clutch_smells = temperature_ > kClutchSmells;
+  state_.clutch_fades = temperature_ > kClutchFades;
   state_.clutch_locked = now_.mode.clutch == 0 && capacity > 0.0;
   state_.gear = meshed_;
 
@@ -327,6 +363,16 @@ void Driveline::publish_state(double capacity) noexcept {
 
   state_.shudder = engine_shudder(car_.engine, state_);
   state_.shift_advice = shift_advice(car_, state_, state_.shift_advice);
+}
+
+// The clutch as one mass that cools to the air around it: C dT/dt = P - k (T - T_air), by the midpoint rule.
+void Driveline::heat_clutch(double heat, double seconds) noexcept {
+  const ClutchSpec& clutch = car_.clutch;
+  if (!(seconds > 0.0)) return;
+  const double cooled = clutch.cooling * (temperature_ - kAirTemperature) * seconds;
+  const double rise = (heat - cooled) / (clutch.heat_capacity + 0.5 * clutch.cooling * seconds);
+  temperature_ += rise;
+  heating_ = rise / seconds;
 }
 
 }  // namespace gearshift::vehicle

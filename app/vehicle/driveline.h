@@ -1,7 +1,7 @@
 // Engine, clutch, gearbox shaft and car as rigid inertias with Coulomb friction between them.
 //
 // Friction elements: the clutch (capacity set by the pedal), the synchroniser's cone, rolling resistance and brakes at
-// the car, drag at the shaft, and friction in the engine, which cannot turn backwards. Each element sticks or slips. A
+// the car, drag at the shaft, and friction and compression in the engine. Each element sticks or slips. A
 // step is split where an element starts to stick or to slip (event location). An element that starts to stick conserves
 // momentum. Between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the substep is
 // solved by impulses.
@@ -19,6 +19,9 @@ namespace gearshift::vehicle {
 
 // Largest torque that the clutch can transmit [N m]. `pedal` is 0 when released and 1 when fully pressed.
 double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
+
+// Fraction of its capacity that the clutch has at this temperature [C].
+double clutch_fade(double temperature) noexcept;
 
 struct DrivelineInput {
   haptics::Pedals pedals;
@@ -55,7 +58,8 @@ class Driveline {
 
   // Sets the speeds directly, in neutral, and resets the energy ledger. Used at the start of a lesson and in tests.
   // `stalled`: the engine is off because it stalled; ignored if `running`.
-  void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false) noexcept;
+  void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false,
+             const EngineState& engine = {}, double clutch_temperature = kAirTemperature) noexcept;
 
   // State of engine, clutch and car. Fields that the synchroniser determines keep their defaults.
   const VehicleState& state() const noexcept { return state_; }
@@ -82,21 +86,27 @@ class Driveline {
     Loads loads;
     ChainMotion motion;  // motion and loads are those at the step's midpoint
     Solution end;
+    EngineState engine;
     bool ends_mode;
   };
 
   void set_input(const DrivelineInput& in) noexcept;
   void mesh(int gear, int cone_gear) noexcept;
   double next_kink(double after) const noexcept;
+  double max_substep() const noexcept;
   void advance(double seconds) noexcept;
   void advance_by_impulses(double seconds) noexcept;
-  Loads loads_at(const PerBody& speed, double time) const noexcept;
+  Loads loads_at(const PerBody& speed, double time, const EngineState& engine) const noexcept;
+  Loads present_loads() const noexcept { return loads_at(speed_, time_, engine_.state()); }
+  EngineState engine_after(double seconds, const PerBody& speed, const Loads& loads,
+                           const EngineState& at) const noexcept;
   Trial try_step(double seconds) const noexcept;
   Reversed reversed(const PerBody& speed, const Loads& loads) const noexcept;
   void accept(const Trial& trial, double seconds) noexcept;
   void snap(const Reversed& elements) noexcept;
   void update_modes() noexcept;
   void account_energy(const Loads& loads, const ChainMotion& motion, const PerBody& to, double seconds) noexcept;
+  void heat_clutch(double heat, double seconds) noexcept;
   void publish_state(double clutch_capacity) noexcept;
 
   CarSpec car_;
@@ -107,7 +117,8 @@ class Driveline {
   Ramp throttle_, pedal_, brakes_, lift_, cone_;
   double time_ = 0.0, length_ = 1.0;  // [s] time since the step began; the step's length
   int meshed_ = 0, cone_gear_ = 0;
-  double cone_ratio_ = 1.0;  // [1] ratio of the gear whose cone rubs
+  double temperature_ = kAirTemperature, heating_ = 0.0;  // [C], [K/s] of the clutch
+  double cone_ratio_ = 1.0;                               // [1] ratio of the gear whose cone rubs
   bool is_first_step_ = true;
   VehicleState state_;
   EnergyLedger energy_;

@@ -90,7 +90,7 @@ void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Se
   for (std::size_t b = segment.first; b <= segment.last; ++b) {
     out.rate[b] = 0.0;
     from += loads.push[b] - loads.ground[b];
-    to += b == engine_body ? kNoLimit : loads.push[b] + loads.ground[b];
+    to += loads.push[b] + loads.ground[b];
     if (b == segment.last) break;
     const double limit = links.limit[b];
     out.violation += distance_outside(std::clamp(0.0, from, to), -limit, limit);
@@ -117,9 +117,8 @@ void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Se
   out.ground[segment.first] = force_out - loads.push[segment.first] - segment.force_in;
 }
 
-// Bodies that stick together must turn in the same direction, and the engine cannot turn backwards.
+// Bodies that stick together must turn in the same direction.
 bool is_feasible(const FrictionChain& chain, const FrictionMode& mode) noexcept {
-  if (mode.turn[engine_body] < 0) return false;
   if (mode.clutch == 0 && mode.turn[engine_body] != mode.turn[shaft_body]) return false;
   return !gear_holds(chain, mode) || mode.turn[shaft_body] == mode.turn[car_body] * sign(chain.per_road);
 }

@@ -2,7 +2,7 @@
 // that results.
 //
 //     engine --clutch-- shaft --cone or dogs-- car          each of the three also has friction against the ground:
-//        |                |                     |           the engine's friction (it cannot turn backwards at all),
+//        |                |                     |           the engine's friction and compression,
 //      ground           ground                ground        the shaft's drag, rolling resistance with brakes
 //
 // Bodies that stick together move as one. For given loads the motion is unique: it minimises Gauss' constraint plus the

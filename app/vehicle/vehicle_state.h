@@ -21,16 +21,19 @@ enum class SyncPhase : std::uint8_t {
 
 struct VehicleState {
   // Engine
-  double engine_speed = 0.0;  // [rad/s] >= 0
-  double engine_load = 0.0;   // [1] 0 to 1: fraction of the available torque
-  bool running = true;        // the engine fires
-  bool stalled = false;       // the engine died with the ignition on and has not run by itself since
-  double red_line = 0.0;      // [rad/s] 0: none
-  bool over_revved = false;   // the engine turns faster than its red line
-  bool fuel_cut = false;      // the rev limiter has cut the fuel
-  bool cranking = false;      // the starter turns the engine
-  double shudder = 0.0;       // [1] 0 to 1: vibration of a labouring or dying engine
-  int shift_advice = 0;       // +1: shift up; -1: shift down, because the engine labours; 0: stay
+  double engine_speed = 0.0;   // [rad/s] backwards is negative
+  double engine_load = 0.0;    // [1] 0 to 1: fraction of the available torque
+  bool running = true;         // the engine fires
+  bool stalled = false;        // the engine died with the ignition on and has not run by itself since
+  double red_line = 0.0;       // [rad/s] 0: none
+  bool over_revved = false;    // the engine turns faster than its red line
+  bool fuel_cut = false;       // the rev limiter has cut the fuel
+  bool cranking = false;       // the starter turns the engine
+  double idle_integral = 0.0;  // [1] and
+  double idle_lift = 0.0;      // [rad/s] and
+  double cranked = 0.0;        // [rad] state of the engine's control, see EngineState
+  double shudder = 0.0;        // [1] 0 to 1: vibration of a labouring or dying engine
+  int shift_advice = 0;        // +1: shift up; -1: shift down, because the engine labours; 0: stay
 
   // Clutch and gearbox
   double clutch_bite = 0.0;      // [1] pedal position at which a clutch coming up starts to transmit torque; 0: no car
@@ -40,6 +43,9 @@ struct VehicleState {
   double shaft_speed = 0.0;      // [rad/s] speed of gearbox input shaft and clutch disc; backwards is negative
   double slip_power = 0.0;       // [W] heating power in the clutch, >= 0
   double slip_energy = 0.0;      // [J] heat in the clutch since the start
+  double clutch_temperature = 0.0;  // [C]
+  bool clutch_smells = false;       // it is so hot that it smells
+  bool clutch_fades = false;        // it is so hot that it slips
   bool clutch_locked = false;
   int gear = 0;                      // engaged gear: kReverseGear, kNeutralGear or 1, 2, ...
   SyncPhase sync = SyncPhase::free;  // phase in the slot that the lever is in

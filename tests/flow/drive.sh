@@ -34,7 +34,7 @@ check "a script" drives move_off.csv
 check "the shift is named" grep -q "shift 1 to 2 in" out
 check "the end is named" grep -q "end: .* gear 2, engine on" out
 check "CSV to stdout" drives move_off.csv --csv
-check "it has the columns" csv "all(c in rows[0] for c in ('time_s', 'engine_rpm', 'road_speed_km_per_h', 'distance_m', 'gear', 'clutch_torque_nm', 'running'))"
+check "it has the columns" csv "all(c in rows[0] for c in ('time_s', 'engine_rpm', 'road_speed_km_per_h', 'distance_m', 'gear', 'clutch_torque_nm', 'clutch_temperature_c', 'running'))"
 check "one row each 10 ms" csv "len(rows) == 1001 and float(rows[-1]['time_s']) == 10"
 check "it ends in second" csv "rows[-1]['gear'] == '2' and rows[-1]['running'] == '1' and float(rows[-1]['road_speed_km_per_h']) > 10"
 cp out first
@@ -56,6 +56,37 @@ check "and coasts" csv "float(rows[-1]['road_speed_km_per_h']) < 79"
 printf '[[row]]\ntime_s = 0\nslope_percent = -10\n[[row]]\ntime_s = 2\n' >roll.toml
 check "a script in TOML" drives roll.toml --start engine=off --csv
 check "rolls downhill" csv "float(rows[-1]['distance_m']) > 1 and rows[-1]['running'] == '0'"
+
+# The car does what a real one does: pulls away without throttle, stalls if dumped, brakes by its engine, holds in gear,
+# starts by being rolled.
+script() { # NAME ROW ...
+  local name=$1
+  shift
+  printf 'time_s,throttle,brake,clutch,hand_brake,slope_percent,gear\n' >"$name"
+  printf '%s\n' "$@" >>"$name"
+}
+script first.csv 0,0,0,1,0,0,1 1,0,0,0.75,0,0,1 2.5,0,0,0.15,0,0,1 8,0,0,0,0,0,1
+check "first without throttle, 1.5 s" drives first.csv --csv
+check "pulls away and idles along" csv "rows[-1]['running'] == '1' and 6 < float(rows[-1]['road_speed_km_per_h']) < 7"
+script dumped.csv 0,0,0,1,0,0,1 1,0,0,0.75,0,0,1 1.05,0,0,0.15,0,0,1 5,0,0,0,0,0,1
+check "the same, dumped" drives dumped.csv --csv
+check "stalls" csv "rows[-1]['stalled'] == '1'"
+script second.csv 0,0,0,1,0,0,2 1,0,0,0.7,0,0,2 4,0,0,0.15,0,0,2 10,0,0,0,0,0,2
+check "the diesel in second, 3 s" drives second.csv --car diesel --csv
+check "pulls away" csv "rows[-1]['running'] == '1'"
+script downhill.csv 0,0,0,0,0,-8,2 60,0,0,0,0,-8,2
+check "second on -8 %" drives downhill.csv --start speed_km_per_h=40 --csv
+check "settles near 57 km/h" csv "abs(float(rows[-1]['road_speed_km_per_h']) - 57) < 5.7"
+for gear in 1 R; do
+  for slope in -10 10 30; do
+    script parked.csv "0,0,0,0,1,$slope,$gear" "1,0,0,0,0,$slope,$gear" "6,0,0,0,0,$slope,$gear"
+    check "parked in $gear on $slope %" drives parked.csv --start engine=off --csv
+    check "holds on 10 %, rolls on 30 %" csv "(abs(float(rows[-1]['distance_m'])) < 0.001) == ($slope < 30)"
+  done
+done
+script bump.csv 0,0,0,1,0,0,2 0.5,0,0,1,0,0,2 1.5,0.1,0,0,0,0,2 5,0.1,0,0,0,0,2
+check "a bump start" drives bump.csv --start speed_km_per_h=15,engine=off --csv
+check "starts the engine" csv "rows[0]['running'] == '0' and rows[-1]['running'] == '1'"
 
 printf 'time_s,throttle\n0,0\n1,2\n' >bad.csv
 refuse 1 "bad.csv:3: throttle = 2: must be between 0 and 1" bad.csv

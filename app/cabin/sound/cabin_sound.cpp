@@ -89,7 +89,7 @@ void CabinSound::update_engine(const vehicle::VehicleState& car, double time) {
   const double step = std::max(0.0, time - std::exchange(updated_at_, time)) / kLoadTime;
   load_ += std::clamp(car.engine_load - load_, -step, step);
   if (!config_.engine) return;
-  const double speed = car.engine_speed / haptics::kTurnPerMinute;  // [1/min]
+  const double speed = std::abs(car.engine_speed) / haptics::kTurnPerMinute;  // [1/min]
   engine_voices().set(world_, speed, load_, 1.0, kEnginePlace);
 }
 

@@ -23,7 +23,7 @@ float pitch_of(double speed, double loop_speed) {
 }
 
 double rpm(const vehicle::VehicleState& car) {
-  return car.engine_speed / haptics::kTurnPerMinute;
+  return std::abs(car.engine_speed) / haptics::kTurnPerMinute;
 }
 
 }  // namespace

@@ -43,9 +43,12 @@ void write_engine(CarText& car, Chance& chance) {
   car.between("friction_nm", 0.0, 0.3 * max_torque);
   car.between("friction_nm_per_krpm", 0.0, 1.0);
   car.between("friction_nm_per_krpm2", 0.0, 1.0);
+  car.between("compression_nm", 0.0, 0.3 * max_torque);
   car.decades("inertia_kgm2", 0.01, 10.0);
   car.put("idle_rpm", idle);
   car.decades("idle_throttle_per_krpm", 0.1, 100.0);
+  car.between("idle_throttle_per_krpm_s", 0.0, 20.0);
+  car.between("idle_lift_rpm", 0.0, 1000.0);
   car.between("stall_rpm", 50.0, 0.9 * idle);
   car.put("red_line_rpm", 0.95 * limiter);
   car.put("limiter_rpm", limiter);
@@ -64,6 +67,8 @@ void write_clutch(CarText& car, Chance& chance) {
   const double closed = car.put("closed_pedal", chance.between(0.0, 0.8));
   car.between("bite_pedal", closed + 0.01, 1.0);
   car.decades("disc_inertia_kgm2", 0.0005, 1.0);
+  car.decades("heat_capacity_j_per_k", 10.0, 1e6);
+  car.between("cooling_w_per_k", 0.0, 1000.0);
 }
 
 void write_gearbox(CarText& car, Chance& chance) {

@@ -33,6 +33,7 @@ constexpr Column kSampleColumns[] = {
     {"road_speed_km_per_h", [](const Sample& s) { return haptics::kKmhPerMps * s.car.road_speed; }},
     {"distance_m", [](const Sample& s) { return s.car.distance; }},
     {"clutch_torque_nm", [](const Sample& s) { return s.car.clutch_torque; }},
+    {"clutch_temperature_c", [](const Sample& s) { return s.car.clutch_temperature; }},
     {"running", [](const Sample& s) { return s.car.running ? 1.0 : 0.0; }},
     {"stalled", [](const Sample& s) { return s.car.stalled ? 1.0 : 0.0; }},
     {"acceleration_m_per_s2", [](const Sample& s) { return s.car.acceleration; }},

@@ -34,10 +34,14 @@ double jerk_limit(const vehicle::CarSpec& car, int gear) noexcept {
   return std::max(kMinJerkLimit, kJerkFraction * kJerkPerStep * acceleration);
 }
 
+double hill_torque(const vehicle::CarSpec& car, int gear, double slope) noexcept {
+  return kGravity * car.body.mass * std::sin(slope) / (vehicle::shaft_per_road(car, gear) * car.gearbox.efficiency);
+}
+
 double burn_limit(const vehicle::CarSpec& car, int gear, double slope) noexcept {
   const double per_road = vehicle::shaft_per_road(car, gear), speed = car.engine.shift_high;
   const double road_speed = speed / per_road;
-  const double hill = std::max(0.0, kGravity * car.body.mass * std::sin(slope) / (per_road * car.gearbox.efficiency));
+  const double hill = std::max(0.0, hill_torque(car, gear, slope));
   return 0.5 * mass_in(car, per_road) * road_speed * road_speed + speed * hill * (0.5 * kLaunchTime + kHillHoldTime);
 }
 

@@ -20,6 +20,9 @@ inline constexpr double kJerkFraction = 0.5;
 // clutch and in a lower gear.
 double jerk_limit(const vehicle::CarSpec& car, int gear) noexcept;
 
+// Clutch torque that the car's weight needs on a slope [rad] in this gear, negative if the weight drives [N m].
+double hill_torque(const vehicle::CarSpec& car, int gear, double slope) noexcept;
+
 // Clutch heat above which a clutch release in this gear is an error [J]: the heat of a launch with the engine held at
 // the car's `shift_high`, the engine speed for upshifts. No launch needs such a high engine speed.
 //

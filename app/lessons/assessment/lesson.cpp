@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/lessons/assessment/clutch_release.h"
 #include "app/lessons/assessment/drive_condition.h"
 #include "app/lessons/assessment/lever_path_text.h"
 #include "haptics/files/parameter_file.h"
@@ -70,6 +71,9 @@ DriveCondition read_condition(const haptics::TomlTable& table) {
   check_between(table, "speed", "_km_per_h");
   table.reject_unknown_keys();
   if (is_empty(c)) table.fail({}, "the condition is empty and would be met at once");
+  if (c.clutch_holds_car == false) table.fail("clutch_holds_car", "must be true; without it, leave it out");
+  if (c.clutch_holds_car && (c.clutch_torque_above || !c.gear || *c.gear == haptics::kNeutralGear))
+    table.fail("clutch_holds_car", "needs a gear, and excludes clutch_torque_above_nm");
   return c;
 }
 
@@ -259,6 +263,11 @@ std::string failing_errors_sentence(const Lesson& lesson) {
 
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car) {
   Lesson driven = lesson;
+  for (LessonStep& step : driven.steps) {
+    DriveCondition& until = step.until;
+    if (until.clutch_holds_car) until.clutch_torque_above = std::abs(hill_torque(car, *until.gear, lesson.start.slope));
+    until.clutch_holds_car.reset();
+  }
   if (!lesson.band_of_car) return driven;
   driven.shift_from = kBandFrom * car.engine.shift_low;
   driven.shift_to = kBandTo * car.engine.shift_high;

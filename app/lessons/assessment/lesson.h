@@ -19,10 +19,12 @@ namespace gearshift::lessons {
 struct DriveCondition {
   std::optional<int> gear;
   std::optional<bool> ignition, running, clutch_locked;
-  std::optional<bool> shift_light;                           // the shift light advises a higher gear
-  std::optional<bool> braked;                                // foot brake or handbrake holds the car
-  std::optional<double> clutch_above, clutch_below;          // [1] pedal
-  std::optional<double> clutch_torque_above;                 // [N m] torque that the clutch transmits into the gearbox
+  std::optional<bool> shift_light;                   // the shift light advises a higher gear
+  std::optional<bool> braked;                        // foot brake or handbrake holds the car
+  std::optional<double> clutch_above, clutch_below;  // [1] pedal
+  std::optional<double> clutch_torque_above;         // [N m] torque that the clutch transmits into the gearbox
+  // The clutch transmits what the car needs on the lesson's slope; lesson_in_car() sets clutch_torque_above for it.
+  std::optional<bool> clutch_holds_car;
   std::optional<double> throttle_above, throttle_below;      // [1]
   std::optional<double> brake_above, brake_below;            // [1]
   std::optional<double> hand_brake_above, hand_brake_below;  // [1]
@@ -96,7 +98,8 @@ bool assesses(const Lesson& lesson, ErrorKind kind) noexcept;
 // error fails the lesson.
 std::string failing_errors_sentence(const Lesson& lesson);
 
-// Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band.
+// Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band, and with the
+// clutch torque that holds this car on the slope, where a step waits for it.
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car);
 
 }  // namespace gearshift::lessons
@@ -116,6 +119,8 @@ inline constexpr Parameter<lessons::DriveCondition> kParameters<lessons::DriveCo
     {&lessons::DriveCondition::clutch_below, "clutch_below", "clutch_below", FileRange{0.0, 1.0}, "Pedal, 1 is down."},
     {&lessons::DriveCondition::clutch_torque_above, "clutch_torque_above", "clutch_torque_above_nm",
      FileRange{0.0, 2000.0}, "Engine to gearbox."},
+    {&lessons::DriveCondition::clutch_holds_car, "clutch_holds_car", "clutch_holds_car", FileRange{},
+     "On the slope of `[start]`."},
     {&lessons::DriveCondition::throttle_above, "throttle_above", "throttle_above", FileRange{0.0, 1.0}, ""},
     {&lessons::DriveCondition::throttle_below, "throttle_below", "throttle_below", FileRange{0.0, 1.0}, ""},
     {&lessons::DriveCondition::brake_above, "brake_above", "brake_above", FileRange{0.0, 1.0}, ""},

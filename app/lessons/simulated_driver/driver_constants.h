@@ -25,11 +25,10 @@ inline constexpr double kLaunchSpeedAfterStall =
 // [1] fraction of idle speed below which the driver presses the clutch to save the engine from stalling
 inline constexpr double kStallRescueSpeed = 0.75;
 inline constexpr double kRevHoldGain = 0.015;        // [s] throttle per rad/s of missing engine speed
-inline constexpr double kRevHoldThrottle = 0.06;     // [1] throttle that keeps a free engine turning
 inline constexpr double kBiteDrop = 22.0;            // [rad/s] drop of engine speed that signals the bite point
 inline constexpr double kIdleDrop = 6.0;             // [rad/s] drop of idle speed that signals the bite point
-inline constexpr double kAccelerateThrottle = 0.45;  // [1] throttle
-inline constexpr double kCruiseThrottle = 0.15;      // [1]
+inline constexpr double kAccelerateThrottle = 0.50;  // [1] throttle
+inline constexpr double kCruiseThrottle = 0.20;      // [1]
 inline constexpr double kSlowBrake = 0.2;            // [1]
 inline constexpr double kStopBrake = 0.3;            // [1]
 inline constexpr double kHandLead = 0.06;            // [s] from clutch down to the start of the hand's movement

@@ -86,7 +86,9 @@ void SimulatedDriver::stop(const vehicle::DriveSample& now) {
 
 // Holds the engine speed by ear: proportional control, limited by how fast the foot moves.
 void SimulatedDriver::hold_revs(double speed) {
-  const double throttle = kRevHoldThrottle + kRevHoldGain * (speed - perceived_speed_);
+  const double friction = vehicle::friction_torque(car_.engine, speed);
+  const double free = friction / (vehicle::full_torque(car_.engine, speed) + friction);  // keeps a free engine turning
+  const double throttle = free + kRevHoldGain * (speed - perceived_speed_);
   feet_.throttle.move_to(std::clamp(throttle, 0.0, 0.8), 4.0);
 }
 

@@ -135,7 +135,10 @@ void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
   }
   if (!shift_.uses_clutch) {
     feet_.clutch.move_to(0.0, kClutchRateToBite);
-    if (shift_.between_gears && hand_.time_waiting(time) > 0.3) hold_revs(std::abs(shaft_speed_in(now, shift_.gear)));
+    // The throttle first takes the load off a gear that it holds, then matches the revs.
+    const bool is_out = now.car.gear == haptics::kNeutralGear;
+    if (shift_.between_gears && hand_.time_waiting(time) > 0.3)
+      hold_revs(is_out ? std::abs(shaft_speed_in(now, shift_.gear)) : perceived_speed_);
     return;
   }
   const vehicle::SyncPhase phase = now.car.sync;

@@ -22,7 +22,7 @@ SimulatedDriver::SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& c
       hand_(period),
       ignition_(lesson.start.running),
       has_run_(lesson.start.running) {
-  for (std::size_t i = 0; i < lesson.steps.size(); ++i) intents_.push_back(intent_of(lesson, i));
+  for (std::size_t i = 0; i < lesson.steps.size(); ++i) intents_.push_back(intent_of(lesson_, i));
   feet_.hand_brake.place(lesson.start.hand_brake);
   release_rate_ = kClutchRateThroughBite;
   launch_speed_ = kLaunchSpeed;

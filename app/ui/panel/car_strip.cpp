@@ -56,11 +56,12 @@ void draw_car_strip(const vehicle::VehicleState& car, int gear) {
   if (car.stalled) {
     draw_word("stalled", ink::kBad);
   } else {
-    draw_word(format_rpm(car.engine_speed), car.over_revved ? ink::kBad : ink::kText);
+    draw_word(format_rpm(std::abs(car.engine_speed)), car.over_revved ? ink::kBad : ink::kText);
   }
   draw_word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
   draw_word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
   if (car.pedals.hand_brake > kHandBrakeOn) draw_word("handbrake", ink::kBad);
+  if (car.clutch_smells) draw_word(car.clutch_fades ? "clutch slips: too hot" : "clutch smells: too hot", ink::kBad);
   if (!car.ignition) draw_word("ignition off", ink::kWarn);
   if (const double slope = slope_percent(car); slope != 0.0)
     draw_word(fmt::format("{:.0f} % {}", std::abs(slope), slope > 0.0 ? "uphill" : "downhill"), ink::kText);

@@ -43,6 +43,15 @@ TEST_CASE("full torque: straight between its points, none beyond") {
 TEST_CASE("friction: constant, linear and square") {
   CHECK(friction_torque(small_engine(), 0.0) == 8.0);
   CHECK(friction_torque(small_engine(), 200.0) == Approx(14.0));
+  CHECK(friction_torque(small_engine(), -200.0) == Approx(14.0));  // against either direction
+}
+
+TEST_CASE("compression holds an engine at rest, and is gone once it turns") {
+  EngineSpec engine = small_engine();
+  engine.compression = 40.0;
+  CHECK(friction_torque(engine, 0.0) == 48.0);
+  CHECK(friction_torque(engine, -4.0) == Approx(8.0 + 0.04 + 0.0016 + 40.0 * std::exp(-1.0)));
+  CHECK(friction_torque(engine, 200.0) == Approx(14.0).epsilon(1e-12));
 }
 
 TEST_CASE("clutch: nothing down to the bite, a quarter half-way, all from closed on") {
@@ -74,23 +83,27 @@ TEST_CASE("the engine idles at its idle speed: combustion there is friction") {
   CHECK(control.torque(250.0, 1.0) == Approx(full_torque(engine, 250.0) + friction_torque(engine, 250.0)));
 }
 
-TEST_CASE("an engine dies below its stall speed and stays dead, until the starter has turned it fast and far enough") {
+TEST_CASE("an engine dies below its stall speed and stays dead, until it has been turned far and fast enough") {
   EngineControl control(small_engine());
+  const auto turn = [&](double angle) { control.set_state({0.0, 0.0, angle}); };
   control.update(89.0);
   CHECK_FALSE(control.running());
   control.update(300.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(300.0, 1.0) == 0.0);
-  control.add_crank_angle(100.0);  // [rad] turned by the car, not by the starter, so not counted
+  CHECK(control.state_rate(20.0, 0.0, {}).cranked == 20.0);
+  CHECK(control.state_rate(-20.0, 0.0, {}).cranked == 0.0);
+  turn(12.5);  // two turns are 12.566
   control.turn_key(true, true);
-  control.add_crank_angle(12.5);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.add_crank_angle(0.1);  // [rad] 12.5 + 0.1 is more than two turns, 12.566
+  turn(12.6);
   control.update(14.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(0.0, 0.0) == 60.0);
   CHECK(control.torque(15.0, 0.0) == 30.0);
+  CHECK(control.torque(-15.0, 0.0) == 60.0);
+  CHECK(control.would_change(15.0, control.state()));
   control.update(15.0);
   CHECK(control.running());
   control.turn_key(true, false);
@@ -98,6 +111,22 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   CHECK_FALSE(control.running());
   control.turn_key(true, true);  // the starter must again turn the engine twice
   control.update(15.0);
+  CHECK_FALSE(control.running());
+}
+
+TEST_CASE("without the starter, a turned engine fires from its stall speed on; one that stood still begins anew") {
+  EngineControl control(small_engine());
+  control.set(false, true);
+  control.set_state({0.0, 0.0, 20.0});
+  control.update(89.0);
+  CHECK_FALSE(control.running());
+  control.update(91.0);
+  CHECK(control.running());
+  CHECK_FALSE(control.stalled());
+  control.set(false, true);
+  control.set_state({0.0, 0.0, 20.0});
+  control.update(0.0);
+  control.update(91.0);
   CHECK_FALSE(control.running());
 }
 

@@ -41,8 +41,11 @@ DriveDeviation deviation(const Drive& drive, const DriveOutcome& actual, const D
 TEST_CASE(
     "every hard drive matches the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06 rad/s") {
   std::vector<Drive> drives = all_drives();
+  for (const Drive& drive : engine_drives()) drives.push_back(drive);
   drives.push_back(launch_of(shipped_car("hatchback")));  // the shipped cars also lose energy in the gear teeth
   drives.push_back(launch_of(shipped_car("diesel")));
+  drives.push_back(pull_away(shipped_car("hatchback"), 1, 1.5));
+  drives.push_back(pull_away(shipped_car("diesel"), 2, 3.0));
   for (const Drive& drive : drives) {
     CAPTURE(drive.name);
     const DriveOutcome expected = reference_of(drive);
@@ -57,6 +60,7 @@ TEST_CASE(
       CHECK(worst.clutch < (step < 0.002 ? 5e-5 : 1e-4));
       CHECK(worst.cone < (step < 0.002 ? 5e-5 : 1e-4));
       CHECK(actual.running == expected.running);
+      CHECK(actual.temperature == doctest::Approx(expected.temperature).epsilon(1e-5));
     }
   }
 }
@@ -84,9 +88,9 @@ TEST_CASE("each drive does what its name says") {
     CHECK(runs.samples.back().road > 1.0);
     CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // the clutch has locked at the end
   }
-  Drive hard = launch_of(shipped_car("hatchback"));
-  hard.input = launch().input;
-  CHECK_FALSE(reference_of(hard).running);
+  const DriveOutcome creeps = reference_of(pull_away(shipped_car("diesel"), 2, 3.0));
+  CHECK(creeps.running);
+  CHECK(creeps.samples.back().road > 3.0);
   const DriveOutcome stalls = reference_of(dump_at_idle());
   CHECK_FALSE(stalls.running);
   const DriveOutcome over = reference_of(money_shift());
@@ -99,16 +103,24 @@ TEST_CASE("each drive does what its name says") {
   CHECK(hill.samples.back().road > 0.5);
   CHECK(reference_of(reverse_ahead()).samples.back().road < -1.0);
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
+  const DriveOutcome rolled = reference_of(rolls_back_dead());
+  CHECK_FALSE(rolled.running);
+  CHECK(rolled.samples.back().engine < -50.0);
+  CHECK(rolled.samples.back().engine == rolled.samples.back().shaft);
+  CHECK(reference_of(bump_start()).running);
+  CHECK(reference_of(cranking()).running);
+  CHECK(reference_of(hot_launch()).temperature > 320.0);
 }
 
-// The separate program also uses Runge-Kutta. In its result, the clutch heat is 2.02 kJ, and the clutch locks after
-// 1.303 s.
+// The separate program takes explicit Euler steps of 1 us. In its result, the clutch heat is 2.302 kJ, and the clutch
+// locks after 1.322 s. While the larger of pedal and idle control opened the throttle, it gave 2.018 kJ and 1.304 s, and
+// a third program, by Runge-Kutta, 2.02 kJ and 1.303 s.
 TEST_CASE("the launch matches a separate program's result") {
   const DriveOutcome runs = reference_of(launch());
-  CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
+  CHECK(runs.slip_energy == doctest::Approx(2302.0).epsilon(0.001));
   const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),
                                   [](const ReferenceSample& s) { return s.engine == s.shaft; });
-  CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
+  CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1322.0).epsilon(0.001));
 }
 
 // Negative control: a clutch with tanh friction, the usual model, has larger errors than the tests above allow.

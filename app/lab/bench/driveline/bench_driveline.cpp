@@ -31,9 +31,9 @@ std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
   return all;
 }
 
-// True if `impulses` and `tanh` can simulate the car. They do not model gear losses.
+// True if `impulses` and `tanh` can simulate the drive. They do not model gear losses, keys and temperature.
 bool supports_plain_methods(const Drive& drive) {
-  return drive.car.gearbox.efficiency == 1.0;
+  return drive.car.gearbox.efficiency == 1.0 && drive.running && drive.temperature == vehicle::kAirTemperature;
 }
 
 // Gives the cost per simulated second, so that methods with different step lengths can be compared.
@@ -55,10 +55,12 @@ BenchRow row_of(const Drive& drive, DriveMethod method, double step, const Drive
   double worst = 0.0;
   for (std::size_t i = 0; i < outcome.samples.size(); ++i)
     worst = std::max(worst, std::abs(outcome.samples[i].engine - reference.samples[i * stride].engine));
+  const bool slips = reference.slip_energy > 0.0;
   BenchRow row{"driveline",
                drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + to_string(method),
-               100.0 * std::abs(outcome.slip_energy / reference.slip_energy - 1.0),
-               "% of the slip energy",
+               slips ? 100.0 * std::abs(outcome.slip_energy / reference.slip_energy - 1.0)
+                     : 100.0 * worst / drive.car.engine.idle,
+               slips ? "% of the slip energy" : "% of the idle speed",
                {},
                false,
                outcome.running == reference.running ? ""
@@ -111,11 +113,13 @@ std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
   add_closed_forms(rows);
   const std::filesystem::path cars = std::filesystem::path(options.gate_folder).parent_path() / "cars";
   const Drive shipped = launch_of(vehicle::read_car(cars / "hatchback.toml"));
-  const std::vector<Drive> drives{launch(), shipped, dump_at_idle(), dump_at_4000(), money_shift()};
+  std::vector<Drive> drives{launch(),       shipped,        pull_away(shipped.car, 1, 1.5),
+                            dump_at_idle(), dump_at_4000(), money_shift()};
+  for (const Drive& drive : engine_drives()) drives.push_back(drive);
   for (const Drive& drive : drives) {
     const DriveOutcome reference = reference_of(drive);
     for (const double step : {0.001, 0.004}) {
-      if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 27.0);
+      if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 38.0);
       const std::vector<Timed> ns = costs(drive, step, rounds);
       const std::size_t methods = supports_plain_methods(drive) ? std::size(kMethods) : 1;
       for (std::size_t m = 0; m < methods; ++m) rows.push_back(row_of(drive, kMethods[m], step, reference, ns[m]));

@@ -19,7 +19,7 @@ inline vehicle::CarSpec bare_car(double one, double other, double capacity, doub
   car.engine.points = 2;
   car.engine.friction = 0.0;
   car.engine.inertia = one;
-  car.engine.idle_gain = car.engine.stall = 0.0;
+  car.engine.idle_gain = car.engine.idle_integral_gain = car.engine.idle_lift = car.engine.stall = 0.0;
   car.engine.limiter = 1e9;
   car.clutch.capacity = capacity;
   car.gearbox.ratio = {1.0};

@@ -53,6 +53,17 @@ Drive launch_of(const vehicle::CarSpec& car) {
   return drive;
 }
 
+Drive pull_away(const vehicle::CarSpec& car, int gear, double seconds) {
+  Drive drive = drive_of("pulling away without throttle", car.engine.idle, 0.0, gear, 0.5 + seconds + 2.0);
+  drive.car = car;
+  const double bite = car.clutch.bite, closed = car.clutch.closed;
+  drive.input = [=](double t) {
+    const double let_up = ramp(t, 0.5, 0.5 + seconds, bite, closed);
+    return pedals(gear, 0.0, t < 0.5 ? ramp(t, 0.2, 0.5, 1.0, bite) : let_up);
+  };
+  return drive;
+}
+
 Drive dump_at_idle() {
   Drive drive = drive_of("clutch dump at idle", 84.0, 0.0, 1, 1.0);
   drive.input = [](double t) { return pedals(1, 0.0, ramp(t, 0.1, 0.13, 1.0, 0.0)); };
@@ -118,9 +129,56 @@ Drive cone_and_engine() {
   return drive;
 }
 
+Drive rolls_back_dead() {
+  Drive drive = drive_of("rolling back with a dead engine", 0.0, -0.01, 1, 2.5);
+  drive.car.engine.compression = 45.0;
+  drive.running = false;
+  drive.input = [](double t) {
+    vehicle::DrivelineInput in = pedals(1, 0.0, ramp(t, 0.8, 1.2, 1.0, 0.0));
+    in.slope = 0.3;
+    return in;
+  };
+  return drive;
+}
+
+Drive bump_start() {
+  Drive drive = drive_of("bump start in second", 0.0, 15.0 / haptics::kKmhPerMps, 2, 2.5);
+  drive.car.engine.compression = 45.0;
+  drive.running = false;
+  drive.input = [](double t) { return pedals(2, 0.1, ramp(t, 0.2, 0.7, 1.0, 0.0)); };
+  return drive;
+}
+
+Drive cranking() {
+  Drive drive = drive_of("starting the engine", 0.0, 0.0, 0, 2.5);
+  drive.car.engine.idle_integral_gain = 0.02;
+  drive.car.engine.compression = 45.0;
+  drive.running = false;
+  drive.shaft = 0.5;
+  drive.input = [](double t) {
+    vehicle::DrivelineInput in = pedals(0, 0.0, 1.0);
+    in.starter = t > 0.1 && t < 1.5;
+    return in;
+  };
+  return drive;
+}
+
+Drive hot_launch() {
+  Drive drive = launch();
+  drive.name = "launch with a hot clutch";
+  drive.car.clutch.heat_capacity = 50.0;
+  drive.car.clutch.cooling = 0.5;
+  drive.temperature = 300.0;
+  return drive;
+}
+
 std::vector<Drive> all_drives() {
   return {launch(),        dump_at_idle(),    dump_at_4000(), money_shift(),    rollback(),
           reverse_ahead(), first_backwards(), cone_only(),    cone_and_engine()};
+}
+
+std::vector<Drive> engine_drives() {
+  return {rolls_back_dead(), bump_start(), cranking(), hot_launch()};
 }
 
 }  // namespace gearshift::lab

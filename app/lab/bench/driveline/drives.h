@@ -20,13 +20,17 @@ struct Drive {
   vehicle::CarSpec car;
   double engine = 84.0, shaft = 0.0, road = 0.0;  // [rad/s], [rad/s], [m/s] initial speeds
   double duration = 1.0;                          // [s]
+  bool running = true;                            // the engine fires at the start
+  double temperature = vehicle::kAirTemperature;  // [C] of the clutch at the start
   std::function<vehicle::DrivelineInput(double seconds)> input;
 };
 
-// Clutch released within 1.5 s. The independent simulation gives 2.02 kJ of slip energy and lock-up at 1.303 s.
+// Clutch released within 1.5 s. A separate program gives 2.302 kJ of slip energy and lock-up at 1.322 s.
 Drive launch();
-// Like launch(), but with more throttle, because the shipped hatchback stalls with the throttle of launch().
+// Like launch(), with more throttle.
 Drive launch_of(const vehicle::CarSpec& car);
+// No throttle: the idle control moves the car off while the clutch comes up from bite to closed in `seconds`.
+Drive pull_away(const vehicle::CarSpec& car, int gear, double seconds);
 Drive dump_at_idle();     // clutch released within 30 ms at idle; the engine stalls
 Drive dump_at_4000();     // clutch released within 30 ms at 4000 rpm
 Drive money_shift();      // shift into second at 30 m/s
@@ -35,7 +39,12 @@ Drive reverse_ahead();    // reverse is engaged at a road speed of +5 m/s
 Drive first_backwards();  // first gear is engaged at a road speed of -4 m/s
 Drive cone_only();        // the synchroniser matches the speeds while the clutch is disengaged and the car rolls
 Drive cone_and_engine();  // the synchroniser matches the speeds while the clutch is engaged
+Drive rolls_back_dead();  // the clutch comes up while the car rolls back with a dead engine, and turns it backwards
+Drive bump_start();       // the clutch comes up in second at 15 km/h, and the engine fires
+Drive cranking();         // the starter turns the engine until it fires and idles
+Drive hot_launch();       // the clutch is so hot that it fades, and hotter at the end
 std::vector<Drive> all_drives();
+std::vector<Drive> engine_drives();  // the last four: a dead engine, a hot clutch
 
 // Linear ramp from the value `from` at time `start` to the value `to` at time `end`.
 double ramp(double seconds, double start, double end, double from, double to);

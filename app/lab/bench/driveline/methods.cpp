@@ -52,7 +52,7 @@ class PlainStepper {
       to[1] += h * force[1] / chain_.inertia[1];
       to[2] += h * force[2] / chain_.inertia[2];
     }
-    to[0] = std::max(0.0, to[0] + h * force[0] / chain_.inertia[0]);
+    to[0] += h * force[0] / chain_.inertia[0];
     finish_step(to, clutch, cone, h);
   }
 
@@ -81,6 +81,9 @@ class PlainStepper {
     for (std::size_t b = 0; b < 3; ++b) travel[b] = 0.5 * h * (speed_[b] + to[b]);
     clutch_heat += clutch * (travel[0] - travel[1]);
     cone_heat += gear * vehicle::cone_slip(chain_, travel);
+    const vehicle::EngineState rate = engine_.state_rate(speed_[0], std::max(0.0, clutch), engine_.state());
+    const vehicle::EngineState& now = engine_.state();
+    engine_.set_state({now.integral + h * rate.integral, now.lift + h * rate.lift, now.cranked + h * rate.cranked});
     speed_ = to;
     engine_.update(speed_[0]);
   }
@@ -102,7 +105,7 @@ void add_sample(DriveOutcome& out, const ReferenceSample& sample) {
 DriveOutcome by_events(const Drive& drive, double step, int steps) {
   DriveOutcome out;
   vehicle::Driveline line(drive.car);
-  line.place(drive.engine, drive.shaft, drive.road, true);
+  line.place(drive.engine, drive.shaft, drive.road, drive.running, false, {}, drive.temperature);
   line.step(drive.input(0.0), 0.0);
   add_sample(out, {drive.engine, drive.shaft, drive.road});
   for (int i = 1; i <= steps; ++i) {
@@ -111,6 +114,7 @@ DriveOutcome by_events(const Drive& drive, double step, int steps) {
   }
   out.slip_energy = line.energy().clutch;
   out.cone_energy = line.energy().cone;
+  out.temperature = line.state().clutch_temperature;
   out.running = line.state().running;
   return out;
 }

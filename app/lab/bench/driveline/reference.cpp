@@ -7,6 +7,8 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kReferenceStep = 1e-5, kLocate = 1e-13;  // [s]
+constexpr double kFiringAngle = 12.57;                    // [rad] two turns
+constexpr double kLiftTime = 0.2;                         // [s] time constant of the idle control's set speed
 
 int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
@@ -15,16 +17,29 @@ int side(double x) {
 // State of the simulation: speeds, and heat of clutch and synchroniser cone.
 struct Y {
   double engine = 0.0, shaft = 0.0, road = 0.0, clutch_heat = 0.0, cone_heat = 0.0;
+  double governor = 0.0, lift = 0.0;  // [1], [rad/s] the idle control's integral part and set speed above idle
+  double turned = 0.0;                // [rad] by an engine that does not fire
+  double temperature = 0.0;           // [C] of the clutch
 };
 Y sum(const Y& y, double h, const Y& d) {
-  return {y.engine + h * d.engine, y.shaft + h * d.shaft, y.road + h * d.road, y.clutch_heat + h * d.clutch_heat,
-          y.cone_heat + h * d.cone_heat};
+  return {y.engine + h * d.engine,
+          y.shaft + h * d.shaft,
+          y.road + h * d.road,
+          y.clutch_heat + h * d.clutch_heat,
+          y.cone_heat + h * d.cone_heat,
+          y.governor + h * d.governor,
+          y.lift + h * d.lift,
+          y.turned + h * d.turned,
+          y.temperature + h * d.temperature};
 }
 
 class Reference {
  public:
   explicit Reference(const Drive& drive) : drive_(drive), car_(drive.car) {
     y_ = {drive.engine, drive.shaft, drive.road};
+    y_.temperature = drive.temperature;
+    running_ = drive.running;
+    engine_ = side(y_.engine), engine_rests_ = engine_ == 0;
     const vehicle::DrivelineInput in = drive.input(0.0);
     dogs_ = in.meshed != 0;
     G_ = vehicle::shaft_per_road(car_, dogs_ ? in.meshed : in.cone_gear);
@@ -47,6 +62,7 @@ class Reference {
     }
     out.slip_energy = y_.clutch_heat;
     out.cone_energy = y_.cone_heat;
+    out.temperature = y_.temperature;
     out.running = running_;
     return out;
   }
@@ -54,6 +70,7 @@ class Reference {
  private:
   struct Forces {
     double spark, friction, capacity, cone, shaft, air, hold;  // hold: rolling resistance and brakes
+    double fires_at;                                           // [rad/s] engine speed
   };
 
   Forces forces(const Y& y, double t) const {
@@ -64,9 +81,16 @@ class Reference {
     const double full_load = vehicle::full_torque(e, std::max(y.engine, e.full_load[0].speed)) + f.friction;
     const double th0 =
         vehicle::friction_torque(e, e.idle) / (vehicle::full_torque(e, e.idle) + vehicle::friction_torque(e, e.idle));
-    const double opening = std::max(in.pedals.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
+    const double idling =
+        std::clamp(th0 + e.idle_gain * (e.idle + y.lift - y.engine) + std::clamp(y.governor, 0.0, 1.0), 0.0, 1.0);
+    const double opening = 1.0 - (1.0 - in.pedals.throttle) * (1.0 - idling);
     f.spark = running_ && !cut_ ? opening * full_load : 0.0;
-    f.capacity = vehicle::clutch_capacity(car_.clutch, in.pedals.clutch);
+    if (in.starter && y.engine < e.starter_speed)
+      f.spark += e.starter_torque * std::min(1.0, 1.0 - y.engine / e.starter_speed);
+    const vehicle::ClutchSpec& clutch = car_.clutch;
+    const double left = (500.0 - y.temperature) / 200.0;
+    f.capacity = vehicle::clutch_capacity(clutch, in.pedals.clutch) * std::clamp(left, 0.0, 1.0);
+    f.fires_at = in.starter ? std::min(e.stall, 0.5 * e.starter_speed) : e.stall;
     f.cone = dogs_ || G_ == 0.0 ? 0.0 : in.cone_torque / cone_ratio_;
     f.shaft = -car_.gearbox.drag_slope * y.shaft;
     f.air = -car_.body.resistance_slope * y.road - car_.body.resistance_square * y.road * std::abs(y.road) -
@@ -94,7 +118,7 @@ class Reference {
     const Forces f = forces(y, t);
     const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
     const double drag = car_.gearbox.drag;
-    const double te = f.spark - f.friction;
+    const double te = f.spark - f.friction * engine_;
     const double ts = f.shaft - drag * shaft_;
     const double fr = f.air - f.hold * road_;
     double tc = clutch_ * f.capacity, tk = cone_ * f.cone;
@@ -121,7 +145,19 @@ class Reference {
       tc = te - je * d.engine;
       tk = ts + tc - js * d.shaft;
     }
+    if (running_) {
+      const vehicle::EngineSpec& e = car_.engine;
+      const double error = e.idle + y.lift - y.engine;
+      const bool is_full = error > 0.0 ? y.governor >= 1.0 : y.governor <= 0.0;
+      d.governor = is_full ? 0.0 : e.idle_integral_gain * error;
+      const double loaded = locked_ || clutch_ < 0 ? 0.0 : f.capacity / vehicle::friction_torque(e, e.idle);
+      d.lift = (std::min(1.0, loaded) * e.idle_lift - y.lift) / kLiftTime;
+    }
     d.clutch_heat = locked_ ? 0.0 : tc * (y.engine - y.shaft);
+    if (!running_) d.turned = std::max(0.0, y.engine);
+    const vehicle::ClutchSpec& clutch = car_.clutch;
+    d.temperature =
+        (d.clutch_heat - clutch.cooling * (y.temperature - vehicle::kAirTemperature)) / clutch.heat_capacity;
     d.cone_heat = dogs_ || geared_ ? 0.0 : tk * (y.shaft - G_ * y.road);
     carried_clutch_ = tc, carried_gear_ = tk;
     return d;
@@ -149,6 +185,7 @@ class Reference {
     engine_stops,
     engine_starts,
     stalls,
+    fires,
     limiter_cuts,
     limiter_releases
   };
@@ -157,11 +194,12 @@ class Reference {
     const Forces f = forces(y, t);
     slope(y, t);
     const double tc = carried_clutch_, tk = carried_gear_;
-    if (running_ && y.engine < car_.engine.stall) return Event::stalls;
+    if (running_ && y.engine < f.fires_at) return Event::stalls;
+    if (!running_ && y.turned >= kFiringAngle && y.engine >= f.fires_at) return Event::fires;
     if (running_ && !cut_ && y.engine > car_.engine.limiter) return Event::limiter_cuts;
     if (cut_ && y.engine < car_.engine.limiter - car_.engine.limiter_band) return Event::limiter_releases;
-    if (!engine_rests_ && !locked_ && y.engine < 0.0) return Event::engine_stops;
-    if (engine_rests_ && !locked_ && f.spark - tc > f.friction) return Event::engine_starts;
+    if (!engine_rests_ && !locked_ && engine_ * y.engine < 0.0) return Event::engine_stops;
+    if (engine_rests_ && !locked_ && std::abs(f.spark - tc) > f.friction) return Event::engine_starts;
     if (!locked_ && f.capacity > 0.0 && clutch_ * (y.engine - y.shaft) < 0.0) return Event::clutch_locks;
     if (locked_ && !car_rests_ && std::abs(tc) > f.capacity) return Event::clutch_slips;
     if (!geared_ && f.cone > 0.0 && cone_ * (y.shaft - G_ * y.road) < 0.0) return Event::cone_locks;
@@ -184,16 +222,19 @@ class Reference {
 
   void apply(Event event, double t) {
     const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
-    if (event == Event::stalls) running_ = false;
+    if (event == Event::stalls) running_ = false, y_.turned = 0.0;
+    if (event == Event::fires) running_ = true, y_.governor = y_.lift = 0.0;
     if (event == Event::limiter_cuts) cut_ = true;
     if (event == Event::limiter_releases) cut_ = false;
-    if (event == Event::engine_stops) y_.engine = 0.0, engine_rests_ = true, clutch_ = side(-y_.shaft);
-    if (event == Event::engine_starts) engine_rests_ = false;
+    if (event == Event::engine_stops)
+      y_.engine = y_.turned = 0.0, engine_ = 0, engine_rests_ = true, clutch_ = side(-y_.shaft);
+    if (event == Event::engine_starts) engine_rests_ = false, engine_ = side(forces(y_, t).spark - carried_clutch_);
     if (event == Event::clutch_locks) {
       const double jr = geared_ ? js + m / (G_ * G_) : js;
       y_.engine = y_.shaft = (je * y_.engine + jr * y_.shaft) / (je + jr);
       if (geared_) y_.road = y_.shaft / G_;
       locked_ = true;
+      engine_ = side(y_.engine);
       slope(y_, t);
       if (std::abs(carried_clutch_) > forces(y_, t).capacity) locked_ = false, clutch_ = -clutch_;
     }
@@ -257,7 +298,7 @@ class Reference {
   bool dogs_ = false;                     // the dog teeth of the gear are engaged
   bool locked_ = false, geared_ = false;  // locked_: the clutch does not slip; geared_: shaft and gear turn together
   bool car_rests_ = false, shaft_rests_ = false, engine_rests_ = false;
-  int clutch_ = 0, cone_ = 0, road_ = 0, shaft_ = 0;  // directions
+  int clutch_ = 0, cone_ = 0, road_ = 0, shaft_ = 0, engine_ = 0;  // directions
   bool running_ = true, cut_ = false;
   double carried_clutch_ = 0.0, carried_gear_ = 0.0;
 };

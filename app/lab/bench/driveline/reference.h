@@ -17,6 +17,7 @@ struct DriveOutcome {
   std::vector<ReferenceSample> samples;  // one per millisecond, including time 0
   double slip_energy = 0.0;              // [J] dissipated in the clutch
   double cone_energy = 0.0;              // [J]
+  double temperature = 0.0;              // [C] of the clutch at the end
   double engine_peak = 0.0;              // [rad/s]
   bool running = true;                   // at the end
 };

@@ -63,6 +63,17 @@ TEST_CASE("an error that a lesson would report is reported") {
   CHECK(drive.samples.back().car.stalled);
 }
 
+TEST_CASE("a clutch that slips until it smells is a driving error") {
+  const ScriptedDrive drive =
+      drive_script(config_of("time_s,throttle,brake,clutch,gear\n0,0,1,1,1\n1,1,1,1,1\n2,1,1,0.42,1\n40,1,1,0.42,1\n"));
+  const auto burnt = std::find_if(drive.errors.begin(), drive.errors.end(), [](const lessons::DrivingError& e) {
+    return e.kind == lessons::ErrorKind::clutch_burn && e.time > 4.0;
+  });
+  REQUIRE(burnt != drive.errors.end());
+  CHECK(sample_at(drive, burnt->time - 0.1).car.clutch_temperature < vehicle::kClutchSmells);
+  CHECK(sample_at(drive, burnt->time + 0.1).car.clutch_temperature > vehicle::kClutchSmells);
+}
+
 TEST_CASE("a start in motion, on a slope, in reverse or with the engine off") {
   const ScriptedDrive rolling = drive_script(config_of("time_s,throttle\n0,0.2\n1,0.2\n", "gear=3,speed_km_per_h=50"));
   CHECK(rolling.samples.front().car.road_speed == Approx(50.0 / 3.6));
@@ -102,7 +113,7 @@ TEST_CASE("CSV and JSON contain the promised columns, events, shifts and errors"
   const std::string csv = drive_csv(drive);
   const std::string head = "," + csv.substr(0, csv.find_first_of("\r\n")) + ",";
   for (const char* column : {"time_s", "engine_rpm", "road_speed_km_per_h", "distance_m", "gear", "clutch_torque_nm",
-                             "running", "lever_x_mm", "event"})
+                             "clutch_temperature_c", "running", "lever_x_mm", "event"})
     CHECK(head.find("," + std::string(column) + ",") != std::string::npos);
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == drive.samples.size() + 1);
   CHECK(csv.find("2 engaged") != std::string::npos);

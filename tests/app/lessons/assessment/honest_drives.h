@@ -130,6 +130,12 @@ inline void reverse(ScriptedDrive& d) {
   a.accelerate_to(11.0);
 }
 
+// [N m] The clutch torque that keeps the car from rolling back in first gear.
+inline double hill_torque(const ScriptedDrive& d) {
+  const double weight = 9.81 * d.car.body.mass * std::sin(d.lesson.start.slope);
+  return weight / (vehicle::shaft_per_road(d.car, 1) * d.car.gearbox.efficiency);
+}
+
 // Releases the clutch until it transmits enough torque, and only then releases the handbrake.
 inline void hill_start(ScriptedDrive& d) {
   Able a{d};
@@ -141,7 +147,7 @@ inline void hill_start(ScriptedDrive& d) {
       [&] {
         a.hold_revs(1600.0);
         d.feet.pedals.clutch -= 0.1e-3;
-        return d.now().clutch_torque > 45.5;
+        return d.now().clutch_torque > 1.05 * hill_torque(d);
       },
       5.0);
   const double begun = d.time();
@@ -152,12 +158,6 @@ inline void hill_start(ScriptedDrive& d) {
   });
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);
-}
-
-// [N m] The clutch torque that keeps the car from rolling back in first gear.
-inline double hill_torque(const ScriptedDrive& d) {
-  const double weight = 9.81 * d.car.body.mass * std::sin(d.lesson.start.slope);
-  return weight / vehicle::shaft_per_road(d.car, 1);
 }
 
 // Holds the car with the foot brake instead of the handbrake, so the foot must move to the throttle quickly.
@@ -260,7 +260,7 @@ inline void six_speed(ScriptedDrive& d) {
 inline void up_in_another_way(ScriptedDrive& d) {
   Able a{d};
   for (int gear = 2; gear <= 5; ++gear) {
-    a.accelerate_to_rpm(1950.0);
+    a.accelerate_to_rpm(2200.0);
     a.lift();
     d.press(d.feet.pedals.clutch, 0.79, 0.2);
     d.lever(gear);

@@ -99,7 +99,7 @@ void follow_prompts(ScriptedDrive& d, double reading) {
     } else if (says("Shift into ")) {
       d.lever(gear_in(prompt));
     } else {
-      d.press(d.feet.pedals.clutch, 0.0, 0.8);
+      d.press(d.feet.pedals.clutch, 0.0, 1.0);
     }
   }
 }

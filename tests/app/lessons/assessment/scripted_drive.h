@@ -163,7 +163,7 @@ struct ScriptedDrive {
 struct Able {
   ScriptedDrive& d;
 
-  void hold_revs(double rpm) { d.feet.pedals.throttle = std::clamp(0.12 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
+  void hold_revs(double rpm) { d.feet.pedals.throttle = std::clamp(0.20 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
 
   // Moves off from a standstill, in gear and with the clutch down. Returns when the clutch is up.
   void launch(double rpm = 1500.0) {

@@ -173,8 +173,8 @@ TEST_CASE("however a lesson ends, the next lap begins in the start state and end
                s.car.road_speed > 0.9 * start.speed - 0.05 && (start.speed > 0.0 || s.car.road_speed < 0.05);
       };
       const double waited = rig.time();
-      while (!at_start(rig.step()) && rig.time() < waited + 120.0) continue;
-      REQUIRE(rig.time() < waited + 120.0);
+      while (!at_start(rig.step()) && rig.time() < waited + 150.0) continue;
+      REQUIRE(rig.time() < waited + 150.0);
       LessonRun judge(drive.lesson, drive.car, config.gate, {LessonMode::by_yourself, 0.0, HintStyle::summary});
       while (!judge.is_over()) judge.add(rig.step());
       // The limit allows for normal foot movement and tremor, but not for a jump between two laps.

@@ -90,7 +90,7 @@ TEST_CASE("a guided drive has no grade; the same drive without guidance has a gr
 TEST_CASE("guidance shortens a beginner's path through the gate") {
   const auto detour = [](double guidance) {
     double sum = 0.0, shifts = 0.0;
-    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 10u : 4u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       LessonDriveConfig config = shipped_drive("up_through_the_gears", seed);
       config.skill = skill_of(1.0);
       config.guidance = guidance;
@@ -146,7 +146,8 @@ TEST_CASE("in an emergency stop, a beginner brakes half as hard as a practised d
   CHECK(beginner / practised == doctest::Approx(0.5).epsilon(0.25));
 }
 
-TEST_CASE("beginners stall when moving off, then use more throttle, and succeed in the end") {
+// The idle control saves most of the engines that would have died without it (up to 0.1.0, more than half stalled).
+TEST_CASE("some beginners stall when moving off, then use more throttle, and succeed in the end") {
   const std::uint64_t seeds = is_full_campaign() ? 20 : 8;
   std::uint64_t stalled = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -158,7 +159,8 @@ TEST_CASE("beginners stall when moving off, then use more throttle, and succeed 
     CHECK(result.end == LessonEnd::done);
     stalled += names(result, ErrorKind::stall) ? 1 : 0;
   }
-  CHECK(stalled > seeds / 2);
+  CHECK(stalled >= seeds / 8);
+  CHECK(stalled < seeds);
 }
 
 TEST_CASE("a lesson can also be driven at other loop rates") {
