@@ -1,6 +1,7 @@
 #include "app/lessons/assessment/lesson_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -41,6 +42,23 @@ void check_gears(const Lesson& lesson, const haptics::Gate& gate) {
   }
   for (const LessonAbort& abort : lesson.aborts)
     check_gear(lesson, gate, abort.when.gear.value_or(haptics::kNeutralGear));
+}
+
+// Throws if the lesson can be passed in this car only with an engine beyond its red line.
+void check_revs(const Lesson& lesson, const vehicle::CarSpec& car) {
+  const auto refuse = [&](const std::string& what, double speed) {
+    throw std::invalid_argument(fmt::format(
+        "lesson {} {} {:.0f} rpm, but the red line of the car \"{}\" is at {:.0f}; "
+        "choose another car",
+        lesson.key, what, speed / haptics::kTurnPerMinute, car.name, car.engine.red_line / haptics::kTurnPerMinute));
+  };
+  const double start = std::abs(vehicle::shaft_per_road(car, lesson.start.gear)) * lesson.start.speed;
+  if (start > car.engine.red_line) refuse("starts at", start);
+  for (std::size_t i = 0; i < lesson.steps.size(); ++i) {
+    const double above = lesson.steps[i].until.engine_above.value_or(0.0);
+    if (above >= car.engine.red_line) refuse(fmt::format("asks in step {} for", i + 1), above);
+  }
+  if (lesson.shift_from >= car.engine.red_line) refuse("asks to shift up from", lesson.shift_from);
 }
 
 }  // namespace
@@ -100,6 +118,7 @@ struct LessonRun::State {
 LessonRun::LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
                      const LessonRunConfig& config) {
   check_gears(lesson, gate);
+  check_revs(lesson_in_car(lesson, car), car);
   state_ = std::make_unique<State>(lesson, car, gate, config);
   LessonResult& result = state_->result;
   result.lesson = lesson.key;

@@ -35,7 +35,8 @@ struct LessonView {
 
 class LessonRun {
  public:
-  // Gate and car are copied. Throws std::invalid_argument if the lesson needs a gear that the gate lacks.
+  // Gate and car are copied. Throws std::invalid_argument if the lesson needs a gear that the gate
+  // lacks, or an engine speed beyond the car's red line.
   LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
             const LessonRunConfig& config);
   ~LessonRun();

@@ -489,3 +489,29 @@ TEST_CASE("a lesson for a gear that the gate lacks is rejected") {
   refused([](Lesson& l) { l.aborts = {{in_gear(8), "No."}}; });
   CHECK_NOTHROW(LessonRun(shift_lesson(), shift.car, shift.gate, {}));
 }
+
+TEST_CASE("a lesson that needs an engine beyond the car's red line is rejected in one sentence") {
+  const ConstructedShift shift;
+  const auto refusal = [&](auto change) -> std::string {
+    Lesson lesson = shift_lesson();
+    lesson.key = "fast";
+    change(lesson);
+    CarSpec car = shift.car;
+    car.name = "slow";
+    car.engine.red_line = 4750.0 * kTurnPerMinute;
+    try {
+      LessonRun(lesson, car, shift.gate, {});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto rpm = [](double value) { return value * kTurnPerMinute; };
+  CHECK(refusal([&](Lesson& l) { l.steps[1].until.engine_above = rpm(6000.0); }) ==
+        "lesson fast asks in step 2 for 6000 rpm, but the red line of the car \"slow\" is at 4750; choose another car");
+  CHECK(refusal([&](Lesson& l) {
+          l.shift_from = rpm(5000.0), l.shift_to = rpm(6000.0);
+        }).starts_with("lesson fast asks to shift up from 5000 rpm"));
+  CHECK(refusal([](Lesson& l) { l.start.gear = 1, l.start.speed = 30.0; }).starts_with("lesson fast starts at "));
+  CHECK(refusal([&](Lesson& l) { l.steps[1].until.engine_above = rpm(4000.0); }).empty());
+}
