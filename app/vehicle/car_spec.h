@@ -132,49 +132,50 @@ namespace gearshift::haptics {
 
 template <>
 inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>[] = {
-    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0}, "Motoring torque, standing."},
+    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0}, "Motoring torque at standstill."},
     {&vehicle::EngineSpec::friction_slope, "friction_slope", "friction_nm_per_krpm",
      FileRange{0.0, 5000.0, file_unit::kPerKrpm}, "Per 1000 rpm."},
     {&vehicle::EngineSpec::friction_square, "friction_square", "friction_nm_per_krpm2",
      FileRange{0.0, 5000.0, file_unit::kPerKrpmSquared}, "Per (1000 rpm)^2."},
-    {&vehicle::EngineSpec::compression, "compression", "compression_nm", FileRange{0.0, 5000.0}, "Holds it standing."},
+    {&vehicle::EngineSpec::compression, "compression", "compression_nm", FileRange{0.0, 5000.0}, "Holds the engine at rest."},
     {&vehicle::EngineSpec::inertia, "inertia", "inertia_kgm2", FileRange{0.01, 10.0}, "With the flywheel."},
     {&vehicle::EngineSpec::idle, "idle", "idle_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, ""},
     {&vehicle::EngineSpec::idle_gain, "idle_gain", "idle_throttle_per_krpm", FileRange{0.1, 100.0, file_unit::kPerKrpm},
-     "Extra throttle."},
+     "Of idle control: extra throttle."},
     {&vehicle::EngineSpec::idle_integral_gain, "idle_integral_gain", "idle_throttle_per_krpm_s",
-     FileRange{0.0, 100.0, file_unit::kPerKrpm}, "Per second."},
+     FileRange{0.0, 100.0, file_unit::kPerKrpm}, "The same, integrated."},
     {&vehicle::EngineSpec::idle_lift, "idle_lift", "idle_lift_rpm", FileRange{0.0, 1000.0, file_unit::kRpm},
-     "While the clutch slips."},
-    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, "The engine dies."},
+     "Idle rises while the clutch slips."},
+    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, "Below it, the engine dies."},
     {&vehicle::EngineSpec::red_line, "red_line", "red_line_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
      "Over-rev warning."},
     {&vehicle::EngineSpec::limiter, "limiter", "limiter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Fuel is cut."},
+     "Above it, fuel is cut."},
     {&vehicle::EngineSpec::limiter_band, "limiter_band", "limiter_band_rpm", FileRange{1.0, 1000.0, file_unit::kRpm},
      "Until the fuel returns."},
     {&vehicle::EngineSpec::starter_torque, "starter_torque", "starter_nm", FileRange{1.0, 1000.0}, "At standstill."},
     {&vehicle::EngineSpec::starter_speed, "starter_speed", "starter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Without load."},
+     "Starter's speed without load."},
     {&vehicle::EngineSpec::shift_low, "shift_low", "shift_from_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Economical upshifts."},
+     "Lower end of economical upshifts."},
     {&vehicle::EngineSpec::shift_high, "shift_high", "shift_to_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
      "Upper end."},
     {&vehicle::EngineSpec::lug_below, "lug_below", "lug_below_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
-     "Least under load."},
-    {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0}, "At the knob, dying."},
+     "Full load below it harms the engine."},
+    {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0}, "Vibration at the knob as it dies."},
 };
 static_assert(describes_all(&vehicle::EngineSpec::full_load, &vehicle::EngineSpec::points));
 
 template <>
 inline constexpr Parameter<vehicle::ClutchSpec> kParameters<vehicle::ClutchSpec>[] = {
     {&vehicle::ClutchSpec::capacity, "capacity", "capacity_nm", FileRange{1.0, 10000.0}, "Pedal up."},
-    {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0}, "Torque begins; 1: down."},
-    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0}, "Full capacity; quadratic between."},
+    {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0}, "Pedal where torque begins; 1: down."},
+    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0}, "Pedal of full capacity; quadratic between."},
     {&vehicle::ClutchSpec::disc_inertia, "disc_inertia", "disc_inertia_kgm2", FileRange{0.0005, 1.0},
      "Disc and input shaft."},
-    {&vehicle::ClutchSpec::heat_capacity, "heat_capacity", "heat_capacity_j_per_k", FileRange{10.0, 1e6}, ""},
-    {&vehicle::ClutchSpec::cooling, "cooling", "cooling_w_per_k", FileRange{0.0, 1000.0}, ""},
+    {&vehicle::ClutchSpec::heat_capacity, "heat_capacity", "heat_capacity_j_per_k", FileRange{10.0, 1e6},
+     "Of disc, plate and flywheel's surface."},
+    {&vehicle::ClutchSpec::cooling, "cooling", "cooling_w_per_k", FileRange{0.0, 1000.0}, "To the air."},
 };
 static_assert(DescribesAll<vehicle::ClutchSpec>);
 
@@ -182,7 +183,7 @@ template <>
 inline constexpr Parameter<vehicle::GearboxSpec> kParameters<vehicle::GearboxSpec>[] = {
     {&vehicle::GearboxSpec::reverse, "reverse", "ratio_r", FileRange{0.1, 20.0}, "Reverse."},
     {&vehicle::GearboxSpec::final_drive, "final_drive", "final_drive", FileRange{0.1, 20.0}, ""},
-    {&vehicle::GearboxSpec::drag, "drag", "drag_nm", FileRange{0.0, 20.0}, "Input shaft."},
+    {&vehicle::GearboxSpec::drag, "drag", "drag_nm", FileRange{0.0, 20.0}, "Friction of the input shaft."},
     {&vehicle::GearboxSpec::drag_slope, "drag_slope", "drag_nm_per_krpm", FileRange{0.0, 20.0, file_unit::kPerKrpm},
      "Per 1000 rpm."},
     {&vehicle::GearboxSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0}, "Meshing teeth; 1: lossless."},
@@ -191,7 +192,7 @@ static_assert(describes_all(&vehicle::GearboxSpec::ratio));
 
 template <>
 inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpec>[] = {
-    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5}, "Cone; worn: less."},
+    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5}, "Of the cone; a worn ring has less."},
     {&vehicle::SynchroSpec::radius, "radius", "radius_mm", FileRange{5.0, 200.0, file_unit::kMillimetres},
      "Of the cone."},
     {&vehicle::SynchroSpec::cone_angle, "cone_angle", "cone_half_angle_deg", FileRange{3.0, 20.0, file_unit::kDegrees},
@@ -205,7 +206,7 @@ inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpe
      "Of these teeth."},
     {&vehicle::SynchroSpec::teeth, "teeth", "teeth", FileRange{6.0, 120.0}, "Dogs."},
     {&vehicle::SynchroSpec::dog_speed, "dog_speed", "dog_rpm", FileRange{0.5, 100.0, file_unit::kRpm},
-     "Dogs engage below it."},
+     "Largest difference at which dogs engage."},
     {&vehicle::SynchroSpec::lever_ratio, "lever_ratio", "lever_ratio", FileRange{1.0, 30.0},
      "Knob travel divided by sleeve travel."},
     {&vehicle::SynchroSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0},
