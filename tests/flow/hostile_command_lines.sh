@@ -61,7 +61,7 @@ refuse 2 "--shifts excludes --case" campaign --out c --case 5 --shifts 10
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
 refuse 1 "?[31m" gate $'\e[31m'
-refuse 2 'unknown verb "tuor"; the verbs are train, demo, lesson, tour, ' tuor --out t
+refuse 2 'unknown verb "tuor"; the verbs are train, demo, lesson, drive, tour, ' tuor --out t
 refuse 2 'unknown verb ""' ""
 refuse 1 "no display"
 refuse 1 "no display" train
