@@ -132,12 +132,14 @@ namespace gearshift::haptics {
 
 template <>
 inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>[] = {
-    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0}, "Motoring torque at standstill."},
+    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0},
+     "Motoring torque at standstill."},
     {&vehicle::EngineSpec::friction_slope, "friction_slope", "friction_nm_per_krpm",
      FileRange{0.0, 5000.0, file_unit::kPerKrpm}, "Per 1000 rpm."},
     {&vehicle::EngineSpec::friction_square, "friction_square", "friction_nm_per_krpm2",
      FileRange{0.0, 5000.0, file_unit::kPerKrpmSquared}, "Per (1000 rpm)^2."},
-    {&vehicle::EngineSpec::compression, "compression", "compression_nm", FileRange{0.0, 5000.0}, "Holds the engine at rest."},
+    {&vehicle::EngineSpec::compression, "compression", "compression_nm", FileRange{0.0, 5000.0},
+     "Holds the engine at rest."},
     {&vehicle::EngineSpec::inertia, "inertia", "inertia_kgm2", FileRange{0.01, 10.0}, "With the flywheel."},
     {&vehicle::EngineSpec::idle, "idle", "idle_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, ""},
     {&vehicle::EngineSpec::idle_gain, "idle_gain", "idle_throttle_per_krpm", FileRange{0.1, 100.0, file_unit::kPerKrpm},
@@ -146,7 +148,8 @@ inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>
      FileRange{0.0, 100.0, file_unit::kPerKrpm}, "The same, integrated."},
     {&vehicle::EngineSpec::idle_lift, "idle_lift", "idle_lift_rpm", FileRange{0.0, 1000.0, file_unit::kRpm},
      "Idle rises while the clutch slips."},
-    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, "Below it, the engine dies."},
+    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Below it, the engine dies."},
     {&vehicle::EngineSpec::red_line, "red_line", "red_line_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
      "Over-rev warning."},
     {&vehicle::EngineSpec::limiter, "limiter", "limiter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
@@ -170,7 +173,8 @@ template <>
 inline constexpr Parameter<vehicle::ClutchSpec> kParameters<vehicle::ClutchSpec>[] = {
     {&vehicle::ClutchSpec::capacity, "capacity", "capacity_nm", FileRange{1.0, 10000.0}, "Pedal up."},
     {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0}, "Pedal where torque begins; 1: down."},
-    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0}, "Pedal of full capacity; quadratic between."},
+    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0},
+     "Pedal of full capacity; quadratic between."},
     {&vehicle::ClutchSpec::disc_inertia, "disc_inertia", "disc_inertia_kgm2", FileRange{0.0005, 1.0},
      "Disc and input shaft."},
     {&vehicle::ClutchSpec::heat_capacity, "heat_capacity", "heat_capacity_j_per_k", FileRange{10.0, 1e6},
@@ -192,7 +196,8 @@ static_assert(describes_all(&vehicle::GearboxSpec::ratio));
 
 template <>
 inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpec>[] = {
-    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5}, "Of the cone; a worn ring has less."},
+    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5},
+     "Of the cone; a worn ring has less."},
     {&vehicle::SynchroSpec::radius, "radius", "radius_mm", FileRange{5.0, 200.0, file_unit::kMillimetres},
      "Of the cone."},
     {&vehicle::SynchroSpec::cone_angle, "cone_angle", "cone_half_angle_deg", FileRange{3.0, 20.0, file_unit::kDegrees},
