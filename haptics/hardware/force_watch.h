@@ -14,8 +14,8 @@
 //
 // In hands that it was not tuned with (force_watch_test.cpp), of 144 reversed sticks 135 were off within 20 s, 115 of them
 // by this watch, but of 144 silent ones only 14: a hand that rests gives no evidence, and one that is stronger than the
-// stick moves it nearly alike with and without forces. So PidLever also asks whether a full force was felt: in 103 of the
-// 144. A healthy stick is asked about eight times in twelve hours of hands that push until they overpower it. Of 144 sticks
+// stick moves it nearly alike with and without forces. So PidLever also asks whether a full force was felt: in 106 of the
+// 144. A healthy stick is asked nine times in twelve hours of hands that push until they overpower it. Of 144 sticks
 // whose springs alone act reversed, which a springy grip resembles, only 17 were off within 20 s.
 //
 // This work is based on:
