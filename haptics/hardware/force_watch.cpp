@@ -251,7 +251,9 @@ void ForceWatch::predict(Axis& axis, const AxisForces& forces, double seconds) n
   }
   const double low = forces.low, high = forces.high, full = axis.max_force;
   for (std::size_t stick = 0; stick < kExplanations; ++stick) {
-    auto& [position, speed, hand, body, body_speed] = axis.estimate[stick].state;
+    auto& state = axis.estimate[stick].state;  // no structured binding, because the lambda captures two of them
+    Values &position = state[0], &speed = state[1], &body = state[3], &body_speed = state[4];
+    const Values& hand = state[2];
     const double constant = kAnyStick[stick].constants * forces.constant;
     const double stiffness = kAnyStick[stick].conditions * forces.stiffness;
     const double damping = kAnyStick[stick].conditions * forces.damping;

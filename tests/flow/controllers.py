@@ -580,7 +580,7 @@ def sprung_levers_shift_in_steps(plugs, folder):
             def stroke(end):
                 for value in (128, (128 + end) // 2, end, (128 + end) // 2, 128):
                     lever.axis(emulated.ABS_X, value)
-                    time.sleep(0.1)
+                    time.sleep(0.25)  # a busy machine shows few frames
 
             lever.axis(emulated.ABS_X, 100)  # the first report
             lever.axis(emulated.ABS_X, 128)
