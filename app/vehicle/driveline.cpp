@@ -332,6 +332,16 @@ void Driveline::account_energy(const Loads& loads, const ChainMotion& motion, co
   state_.distance += distance[car_body];
 }
 
+// The clutch as one mass that cools to the air around it: C dT/dt = P - k (T - T_air), by the midpoint rule.
+void Driveline::heat_clutch(double heat, double seconds) noexcept {
+  const ClutchSpec& clutch = car_.clutch;
+  if (!(seconds > 0.0)) return;
+  const double cooled = clutch.cooling * (temperature_ - kAirTemperature) * seconds;
+  const double rise = (heat - cooled) / (clutch.heat_capacity + 0.5 * clutch.cooling * seconds);
+  temperature_ += rise;
+  heating_ = rise / seconds;
+}
+
 void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
   const double engine = speed_[engine_body] + 0.0;  // changes -0 to 0
@@ -363,16 +373,6 @@ void Driveline::publish_state(double capacity) noexcept {
 
   state_.shudder = engine_shudder(car_.engine, state_);
   state_.shift_advice = shift_advice(car_, state_, state_.shift_advice);
-}
-
-// The clutch as one mass that cools to the air around it: C dT/dt = P - k (T - T_air), by the midpoint rule.
-void Driveline::heat_clutch(double heat, double seconds) noexcept {
-  const ClutchSpec& clutch = car_.clutch;
-  if (!(seconds > 0.0)) return;
-  const double cooled = clutch.cooling * (temperature_ - kAirTemperature) * seconds;
-  const double rise = (heat - cooled) / (clutch.heat_capacity + 0.5 * clutch.cooling * seconds);
-  temperature_ += rise;
-  heating_ = rise / seconds;
 }
 
 }  // namespace gearshift::vehicle

@@ -5,7 +5,7 @@
 
 namespace gearshift::vehicle {
 
-// What changes continuously in the engine's control.
+// The state of the engine's control that changes continuously.
 struct EngineState {
   double integral = 0.0;  // [1] load that the integral part of the idle control adds, 0 to 1
   double lift = 0.0;      // [rad/s] how far the idle control's set speed is above EngineSpec::idle

@@ -143,7 +143,7 @@ class Calibrator {
   double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
   Motion distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand beside,
                          const StickCommand* before = nullptr) const;
-  double own_share(StickRig& rig, const LeverAxisCalibration& axis) const;
+  double own_fraction(StickRig& rig, const LeverAxisCalibration& axis) const;
   double distance_returned(StickRig& rig, const AxisPlace& place, const StickCommand& under) const;
   AxisModel handle_of(const PulseFit& found, std::size_t axis) const;
   bool is_stiff(const PulseFit& found, std::size_t axis) const;

@@ -47,7 +47,7 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
 constexpr double kMinFriction = 0.02;        // [N] less is not reported
-constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
+constexpr double kMinOwnFraction = 0.25;     // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000, kPeakTime = 100'000'000;  // [ns]
 constexpr std::int64_t kOffTime = 100'000'000;  // [ns] for all effects to be stopped
 constexpr double kMinGap = 0.0003;              // [s] shorter gaps are within the noise
@@ -687,13 +687,13 @@ std::string Calibrator::measure_handle() {
   for (const std::size_t i : motors()) {
     handle[i] = handle_of(found[i], i);
     const LeverAxisCalibration& axis = axis_of(i);
-    const double share = is_stiff(found[i], i) ? own_share(rig, axis) : 0.0;
+    const double own = is_stiff(found[i], i) ? own_fraction(rig, axis) : 0.0;
     const double stop_force = 0.5 * handle[i].stiffness * axis.travel;  // [N] of the handle's spring at a stop
-    if ((1.0 - share) * stop_force > kMaxHandleSpringForce * axis.full_force)
+    if ((1.0 - own) * stop_force > kMaxHandleSpringForce * axis.full_force)
       throw CalibrationRefused(std::string(kNames[i]) + " has a spring of " + newtons_per_metre(handle[i].stiffness) +
                                ", too stiff for the motors. Take your hands off the lever, or make the stick's own "
                                "centring weaker in its own software");
-    own_spring[i] = share * handle[i].stiffness;
+    own_spring[i] = own * handle[i].stiffness;
     sentence += (sentence.empty() ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) +
                 " kg, " + number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
     const double friction = found[i].friction * axis.force_per_magnitude();  // [N]
@@ -734,18 +734,18 @@ bool Calibrator::spring_helps(StickRig& rig) const {
     const AxisPlace place = places()[i];
     if (!acts_beside(rig, place, idle_command(), held)) return false;
     const double alone = distance_returned(rig, place, idle_command()), beside = distance_returned(rig, place, held);
-    if (alone > 0.0 && 1.0 - beside / alone > kMinOwnShare) return true;
+    if (alone > 0.0 && 1.0 - beside / alone > kMinOwnFraction) return true;
   }
   return false;
 }
 
-// Share of the handle's stiffness that disappears with the motors: deflects the lever and compares how it returns with
+// Fraction of the handle's stiffness that disappears with the motors: deflects the lever and compares how it returns with
 // the motors on, without a force, and with the motors off.
-double Calibrator::own_share(StickRig& rig, const LeverAxisCalibration& axis) const {
+double Calibrator::own_fraction(StickRig& rig, const LeverAxisCalibration& axis) const {
   const AxisPlace place = axis_place(axis);
   const double on = distance_returned(rig, place, idle_command()), off = distance_returned(rig, place, {});
-  const double share = on > 0.0 ? std::clamp(1.0 - off / on, 0.0, 1.0) : 0.0;
-  return share < kMinOwnShare ? 0.0 : share;
+  const double fraction = on > 0.0 ? std::clamp(1.0 - off / on, 0.0, 1.0) : 0.0;
+  return fraction < kMinOwnFraction ? 0.0 : fraction;
 }
 
 // [counts] that the lever returns in kReturnTime after a constant force ended, under this command.

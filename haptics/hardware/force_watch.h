@@ -53,8 +53,8 @@ class ForceWatch {
   // Real-time safe.
   void on_output(const StickForces& forces, std::int64_t time_ns) noexcept;
   void on_reading(glm::dvec2 position, std::int64_t time_ns) noexcept;  // [m]
-  // The motors are off: for a stuck sensor, a late command or by a person's wish. Evidence that no motor acts is kept for
-  // when they are on again, because a stick without power is often switched off for another reason first.
+  // The motors are off: for a stuck sensor, a late command or because a person switched them off. Evidence that no motor
+  // acts is kept for when they are on again, because a stick without power is often switched off for another reason first.
   void pause() noexcept;
   void reset() noexcept;
 

@@ -11,7 +11,7 @@ constexpr std::uint64_t reported_bit_of(std::size_t kind) noexcept {
 }
 
 // A stick without power moves, or rests, as if a strong hand held it.
-const std::string kIfNotFelt = "; if you felt no force, check the stick's power supply and its safety switch";
+constexpr const char* kIfNotFelt = "; if you felt no force, check the stick's power supply and its safety switch";
 
 std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
   switch (problem) {

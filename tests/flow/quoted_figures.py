@@ -55,6 +55,8 @@ def quoted(rows):
     p50, p99 = ("cycle", "whole cycle p50"), ("cycle", "whole cycle p99")
     cabin, driver = (("picture", f"cabin 1280x720, 1x, {what}") for what in ("shadow and mirror", "as the driver sees it"))
     at_once = max(value for value in rows.all("faults", "^(?!consecutive overruns)"))
+    verdicts = [row["verdict"] for row in rows.rows.values() if row["goal"]]
+    yield f"{sum(verdict.startswith('met') for verdict in verdicts)} of the {len(verdicts)} goals are met"
     yield "p50 {:.0f} ns, p99 {:.0f} ns | 200, 500 ns{} |".format(of(*p50), of(*p99), rows.missed(p50, p99))
     yield "{:.0f} x real time | 1000 x |".format(of("headless", "simulation at 1 kHz"))
     yield "{:.3f}, {:.3f}, {:.3f} mm | 0.04, 0.06, 0.10 |".format(*map(ripple, ("2000 Hz", "1000 Hz", "500 Hz")))

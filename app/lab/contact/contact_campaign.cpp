@@ -130,7 +130,7 @@ double softest(const std::vector<HandOutcome>& outcomes) {
   return least;
 }
 
-double softened_share(const std::vector<HandOutcome>& outcomes, int runs) {
+double softened_fraction(const std::vector<HandOutcome>& outcomes, int runs) {
   int softened = 0;
   for (const HandOutcome& outcome : outcomes) softened += outcome.softened;
   return static_cast<double>(softened) / (static_cast<double>(runs) * static_cast<double>(outcomes.size()));

@@ -63,8 +63,8 @@ const HandOutcome& worst_ripple(const std::vector<HandOutcome>& outcomes);
 double deepest(const std::vector<HandOutcome>& outcomes);        // [m]
 double min_displayed(const std::vector<HandOutcome>& outcomes);  // [1]
 double softest(const std::vector<HandOutcome>& outcomes);        // [N/m]
-// Share of all runs in which the wall was softened. `runs`: per hand. [1]
-double softened_share(const std::vector<HandOutcome>& outcomes, int runs);
+// Fraction of all runs in which the wall was softened. `runs`: per hand. [1]
+double softened_fraction(const std::vector<HandOutcome>& outcomes, int runs);
 
 struct ImpactEnergy {
   double worst_fraction = -1e9;  // [1] largest ratio of the energy supplied by the wall to the impact energy

@@ -94,7 +94,7 @@ ContactAnswer measure_contact(const ContactQuestion& question, const std::functi
     answer.hands.push_back(run_hand(campaign, i));
     answer.stopped += answer.hands.back().stopped / runs;
   }
-  answer.softened = softened_share(answer.hands, campaign.runs);
+  answer.softened = softened_fraction(answer.hands, campaign.runs);
   answer.ripple_p95 = ripple_p95(answer.hands, campaign.runs);
   progress(0.9);
   answer.impact = run_impacts(campaign.contact, std::max(kMinPhases, campaign.runs));

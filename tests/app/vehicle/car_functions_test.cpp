@@ -114,7 +114,7 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until it has bee
   CHECK_FALSE(control.running());
 }
 
-TEST_CASE("without the starter, a turned engine fires from its stall speed on; one that stood still begins anew") {
+TEST_CASE("without the starter, a turned engine fires from its stall speed on; one that stood still must turn again") {
   EngineControl control(small_engine());
   control.set(false, true);
   control.set_state({0.0, 0.0, 20.0});

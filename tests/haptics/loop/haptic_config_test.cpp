@@ -171,7 +171,7 @@ AdmittedTuning admitted_on(double step, const HapticConfig& config, int delay = 
   return admit_tuning(config, spec, paper_gate());
 }
 
-std::string limits_in_words(const AdmittedTuning& admitted) {
+std::string limits_text(const AdmittedTuning& admitted) {
   std::string text;
   for (const TuningLimit& limit : admitted.limits) text += describe(limit) + "\n";
   return text;
@@ -241,7 +241,7 @@ TEST_CASE("resolution: 100 N s/m at 4 kHz and an encoder of 5 counts per degree 
   fast.rate = 4000.0;
   CHECK(admitted_on(kFineStep, fast).limits.empty());  // the shipped tuning: B q / T = 2.98 N
   fast.tuning.wall_damping = 100.0;
-  CHECK(limits_in_words(admitted_on(kFineStep, fast)) ==
+  CHECK(limits_text(admitted_on(kFineStep, fast)) ==
         "wall_damping_n_s_per_m limited from 100 to 10.0671 (one encoder count q changes the damping force by at most "
         "3 N if B <= 3 N T / q)\n");
   for (const double rate : {250.0, 500.0, 1000.0, 2000.0, 4000.0}) {
@@ -250,7 +250,7 @@ TEST_CASE("resolution: 100 N s/m at 4 kHz and an encoder of 5 counts per degree 
       CAPTURE(delay);
       HapticConfig config;
       config.rate = rate;
-      CHECK(limits_in_words(admitted_on(kFineStep, config, delay)).find("count") == std::string::npos);
+      CHECK(limits_text(admitted_on(kFineStep, config, delay)).find("count") == std::string::npos);
       const AdmittedTuning coarse = admitted_on(kCoarseStep, config, delay);
       CHECK(coarse.hold == ContactHold::half_sample);
       CHECK(coarse.tuning.wall_stiffness <= std::min(0.2 * 0.086 * std::pow(rate / (delay + 1), 2.0),
@@ -258,7 +258,7 @@ TEST_CASE("resolution: 100 N s/m at 4 kHz and an encoder of 5 counts per degree 
                                                 (1.0 + 1e-12));
     }
   }
-  CHECK(limits_in_words(admitted_on(kCoarseStep, {})).find("the encoder resolves a contact at 0.1 m/s") !=
+  CHECK(limits_text(admitted_on(kCoarseStep, {})).find("the encoder resolves a contact at 0.1 m/s") !=
         std::string::npos);
 }
 
@@ -268,16 +268,16 @@ TEST_CASE("resolution: an observer that is asked for on a coarse encoder is repl
   CHECK(admitted_on(kFineStep, config, 3).hold == ContactHold::observer);
   const AdmittedTuning coarse = admitted_on(kCoarseStep, config, 3);
   CHECK(coarse.hold == ContactHold::half_sample);
-  CHECK(limits_in_words(coarse).find(
-            "hold limited from observer to half_sample (with the observer hold, one encoder count q "
-            "changes the velocity by more than 0.125 m/s)") != std::string::npos);
+  CHECK(
+      limits_text(coarse).find("hold limited from observer to half_sample (with the observer hold, one encoder count q "
+                               "changes the velocity by more than 0.125 m/s)") != std::string::npos);
 }
 
 TEST_CASE("slew: K <= S / (T 1 m/s), so that the force follows a contact at 1 m/s") {
   HapticConfig config;
   config.guard.slew = 2.0;
   CHECK(
-      limits_in_words(admitted_on(kFineStep, config))
+      limits_text(admitted_on(kFineStep, config))
           .starts_with("wall_stiffness_n_per_m limited from 5000 to 2000 (the slew limit S per cycle follows a contact "
                        "at 1 m/s only if K <= S / (T 1 m/s))\n"));
   config.rate = 500.0;
@@ -411,7 +411,7 @@ TEST_CASE("feel: outside the walls only the free damping acts, so a late feel is
       CHECK(feel <= swings / 1.05);
       if (feel < used.tuning.wall_stiffness * (1.0 - 1e-9)) {
         CHECK(feel == doctest::Approx(swings / 1.1).epsilon(0.03));
-        CHECK(limits_in_words(used).find("1.1 times the gate's stiffest force") != std::string::npos);
+        CHECK(limits_text(used).find("1.1 times the gate's stiffest force") != std::string::npos);
       }
     }
   }

@@ -65,7 +65,7 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& pref
   for (const HandOutcome& outcome : outcomes) max_ripple = std::max(max_ripple, outcome.ripple_max);
   std::vector<RelatedFigure> related{{"lowest stiffness in use", softest(outcomes), "N/m"},
                                      {"displayed", 100.0 * min_displayed(outcomes), "%"},
-                                     {"softened", 100.0 * softened_share(outcomes, campaign.runs), "% of the runs"},
+                                     {"softened", 100.0 * softened_fraction(outcomes, campaign.runs), "% of the runs"},
                                      {"deepest", 1e3 * deepest(outcomes), "mm"},
                                      {"force ripple", worst.force_ripple, "N"},
                                      {"rms acceleration", worst.tremble, "m/s^2"},
@@ -106,7 +106,7 @@ BenchRow random_hand_row(const Setting& at, int hands) {
                      "worst hand: " + worst.hand,
                      true,
                      {{"its motion", 1e3 * worst.ripple_max, "mm"},
-                      {"softened", 100.0 * softened_share(outcomes, kRuns), "% of the runs"}}});
+                      {"softened", 100.0 * softened_fraction(outcomes, kRuns), "% of the runs"}}});
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ double felt_band(const Campaign& campaign) {
 BenchRow search_row(const Timing& at, const Point& point, Campaign campaign, bool quick) {
   campaign.runs = quick ? 5 : 150;
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
-  const double ripple = 1e3 * worst_ripple(outcomes).ripple_p95, softened = softened_share(outcomes, campaign.runs);
+  const double ripple = 1e3 * worst_ripple(outcomes).ripple_p95, softened = softened_fraction(outcomes, campaign.runs);
   Campaign strangers = campaign;
   strangers.runs = quick ? 1 : 3;
   strangers.contact.duration = 3.0;

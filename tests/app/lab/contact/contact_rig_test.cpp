@@ -139,7 +139,7 @@ Quietness quietness(const ContactCase& contact) {
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const double count = contact.lever.yoke.radius * std::numbers::pi / 180.0 / contact.lever.encoder_counts;
   const double ripple = worst_ripple(outcomes).ripple_p95;
-  return {ripple / count, ripple, run_impacts(contact, 12).worst_fraction, softened_share(outcomes, campaign.runs)};
+  return {ripple / count, ripple, run_impacts(contact, 12).worst_fraction, softened_fraction(outcomes, campaign.runs)};
 }
 
 struct Demand {
