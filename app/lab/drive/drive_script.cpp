@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 // The fields of a line of CSV. A field in double quotes may contain commas.
-std::vector<std::string> fields_of(std::string_view line) {
+std::vector<std::string> fields_of(std::string_view line, const std::string& file, int number) {
   std::vector<std::string> fields(1);
   bool is_quoted = false;
   for (const char c : line) {
@@ -46,6 +46,7 @@ std::vector<std::string> fields_of(std::string_view line) {
     else
       fields.back() += c;
   }
+  if (is_quoted) throw haptics::FileError(file, number, "a double quote is not closed");
   for (std::string& field : fields) field = trimmed(field);
   return fields;
 }
@@ -167,10 +168,10 @@ DriveScript parse_csv(std::string_view text, const std::string& file) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     if (names.empty()) {
-      names = fields_of(line);
+      names = fields_of(line, file, number);
       check_columns(names, file, number);
     } else {
-      add_row(CsvRow(file, number, names, fields_of(line)), script);
+      add_row(CsvRow(file, number, names, fields_of(line, file, number)), script);
     }
   }
   return script;

@@ -96,6 +96,7 @@ TEST_CASE("bad input gets one sentence with file, line, key, value and range") {
             .starts_with("bad.csv:1: \"speed\" is not a known column; known: time_s, throttle"));
   CHECK(refusal("time_s,brake,brake\n0,1,1\n") == "bad.csv:1: brake is there twice");
   CHECK(refusal("throttle\n0\n") == "bad.csv:1: the column time_s is missing");
+  CHECK(refusal("time_s,gear\n0,\"1\n") == "bad.csv:2: a double quote is not closed");
   CHECK(refusal("time_s,brake\n0\n") == "bad.csv:2: has 1 values, but there are 2 columns");
   CHECK(refusal("time_s\n").starts_with("bad.csv: has no rows"));
   CHECK(refusal("", "bad.toml") == "bad.toml: has no [[row]]");
