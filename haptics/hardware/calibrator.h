@@ -115,7 +115,6 @@ class Calibrator {
   bool acts_beside(StickRig& rig, const AxisPlace& axis, const StickCommand& fewer, const StickCommand& more) const;
   // Indices of the axes whose motors are used: select and shift, or shift only.
   std::span<const std::size_t> motors() const noexcept;
-  void check_together(StickRig& rig, const Signs& found) const;
   void cancel_cross_talk(StickRig& rig, Signs& found) const;
   double coupling(std::size_t axis, const Motion& there, const Motion& back) const;
   Motion push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;

@@ -245,8 +245,6 @@ Calibrator::Signs Calibrator::constant_signs_by(StickStyle style) {
   else if (!acts_beside(rig, places()[0], only(places()[0].motor), idle_command()) ||
            !acts_beside(rig, places()[1], only(places()[1].motor), idle_command()))
     found.only_shift = "the stick renders one force at a time";
-  else
-    check_together(rig, found);
   return found;
 }
 
@@ -318,30 +316,6 @@ double Calibrator::coupling(std::size_t axis, const Motion& there, const Motion&
   };
   const double ratio = places()[1 - axis].sign * (there.other - back.other) / (there.moved - back.moved);
   return calibration_.has_travel() ? ratio * travel(1 - axis) / travel(axis) : ratio;
-}
-
-// Some sticks mix the forces of the two axes.
-void Calibrator::check_together(StickRig& rig, const Signs& found) const {
-  const std::array<AxisPlace, 2> place = places();
-  for (const double direction : {1.0, -1.0}) {
-    StickCommand command = idle_command();
-    std::array<double, 2> from{}, moved{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      from[i] = rig.rest(place[i].report, idle_command());
-      const double wanted = i == 0 ? direction : 1.0;  // to the right or forward
-      command.constant[place[i].motor] = wanted * found.sign[i] * found.magnitude;
-    }
-    const std::int64_t begin = rig.latest().now_ns;
-    while (rig.latest().now_ns - begin < kPushTime && std::abs(moved[0]) < 2.0 * kMoved &&
-           std::abs(moved[1]) < 2.0 * kMoved) {
-      rig.step(command);
-      for (std::size_t i = 0; i < 2; ++i)
-        moved[i] = place[i].sign * (rig.position(place[i].report) - from[i]) / rig.range(place[i].report);
-    }
-    rig.step(idle_command());
-    if (direction * moved[0] < 0.25 * kMinMoved || moved[1] < 0.25 * kMinMoved)
-      throw EffectsRefused("the stick does not render the forces of both axes at the same time");
-  }
 }
 
 // True if a force acts as well beside more effects as beside fewer. A stick that plays only some of its effects stops
