@@ -77,7 +77,9 @@ Instance::Instance(const GpuConfig& config)
   const VkResult result = config.factory != nullptr ? config.factory->make_instance(info, &instance_)
                                                     : vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-    throw GpuError("No Vulkan driver is installed. Install the package mesa-vulkan-drivers for a software renderer.");
+    throw GpuError(
+        "No Vulkan driver could be loaded. Install your graphics card's driver, or the package mesa-vulkan-drivers for "
+        "a software renderer.");
   }
   check(result, "vkCreateInstance");
   if (!validates_) return;
