@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // makes the draws of widen() independent of all other draws
 constexpr std::uint64_t kGripSeed = 0x5851f42d4c957f2d;  // makes the grips' draws independent of all other draws
+constexpr std::uint64_t kHandSeed = 0x2ab7e1516289d2f3;  // makes the draws of any hand independent of all other draws
 constexpr double kElasticFraction = 0.3;                 // [1] of the cases with a hand
 constexpr double kCountPerDegree =
     haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] motion of the tip per degree
@@ -34,6 +35,7 @@ haptics::HandImpedance hand_of(CaseHand kind, Chance& chance) {
     case CaseHand::grip:
     case CaseHand::nervous:
     case CaseHand::hasty:
+    case CaseHand::any:
       return haptics::kGripHand;
   }
   return haptics::kGripHand;
@@ -156,13 +158,19 @@ CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int s
   drawn.seed = case_seed(campaign_seed, number);
   Chance chance(drawn.seed);
   if (chance.happens(0.2)) drawn.shipped_gate = chance.below(shipped_gates);
-  drawn.hand = static_cast<CaseHand>(chance.below(static_cast<int>(kCaseHandNames.size())));
+  drawn.hand = static_cast<CaseHand>(chance.below(static_cast<int>(CaseHand::any)));
   if (drawn.hand == CaseHand::bare) drawn.shifts = 0;
   drawn.manner = manner_of(drawn.hand, chance);
   drawn.haptics = haptics_of(chance);
   drawn.lever = lever_of(drawn.hand, drawn.seed, chance);
   Chance wide_chance(drawn.seed ^ kWideSeed);
   if (number % kWideEvery == kFirstWide) widen(drawn, wide_chance);
+  if (drawn.hand != CaseHand::bare && number % kAnyHandEvery == kFirstAnyHand) {
+    Chance hand_chance(drawn.seed ^ kHandSeed);
+    const double mass = hand_chance.between(0.0, 1.0), stiffness = hand_chance.between(0.0, 1.0);
+    drawn.hand = CaseHand::any;
+    drawn.lever.hand = any_hand({mass, stiffness, hand_chance.between(0.0, 1.0)});
+  }
   Chance grip_chance(drawn.seed ^ kGripSeed);
   drawn.is_elastic = drawn.hand != CaseHand::bare && grip_chance.happens(kElasticFraction);
   const std::array<double, 3> grip{grip_chance.between(0.0, 1.0), grip_chance.between(0.0, 1.0),

@@ -22,10 +22,11 @@ enum class CaseHand : int {
   heavy,    // a hand of 1 to 3 kg
   stiff,    // a hand of 1000 to 3000 N/m
   nervous,  // like `grip`, with a tremor of 8 to 12 Hz
-  hasty     // like `grip`, but fast, inaccurate and overshooting
+  hasty,    // like `grip`, but fast, inaccurate and overshooting
+  any       // a hand of 0.02 to 2.5 kg that moves like one of the others
 };
-inline constexpr std::array<std::string_view, 8> kCaseHandNames{"bare",  "light", "grip",    "arm",
-                                                                "heavy", "stiff", "nervous", "hasty"};
+inline constexpr std::array<std::string_view, 9> kCaseHandNames{"bare",  "light",   "grip",  "arm", "heavy",
+                                                                "stiff", "nervous", "hasty", "any"};
 
 // The hand's style of movement.
 struct CaseManner {
@@ -58,6 +59,8 @@ struct CampaignCase {
 
 // Cases 4, 11, 18 and so on are wide (see CampaignCase::is_wide).
 inline constexpr std::uint64_t kWideEvery = 7, kFirstWide = 4;
+// Cases 1, 7, 13 and so on have `CaseHand::any`, unless they have no hand.
+inline constexpr std::uint64_t kAnyHandEvery = 6, kFirstAnyHand = 1;
 
 // Returns the case's seed: output `number` of a splitmix64 generator with the campaign's seed.
 std::uint64_t case_seed(std::uint64_t campaign_seed, std::uint64_t number) noexcept;

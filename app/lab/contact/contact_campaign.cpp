@@ -53,15 +53,20 @@ haptics::HandImpedance with_grip(haptics::HandImpedance hand, const std::array<d
   return hand;
 }
 
+haptics::HandImpedance any_hand(const std::array<double, 3>& drawn) {
+  const auto even_in_decades = [](double low, double high, double part) { return low * std::pow(high / low, part); };
+  haptics::HandImpedance hand;
+  hand.mass = even_in_decades(0.02, 2.5, drawn[0]);
+  hand.stiffness = even_in_decades(100.0, 1500.0, drawn[1]);
+  hand.damping = 2.0 * (0.1 + (0.8 - 0.1) * drawn[2]) * std::sqrt(hand.stiffness * hand.mass);
+  return hand;
+}
+
 std::vector<ContactHand> random_hands(int count, std::uint64_t seed) {
   std::mt19937_64 random(seed), grip(seed ^ kGripSeed);
-  const auto even_in_decades = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
   std::vector<ContactHand> hands;
   for (int i = 0; i < count; ++i) {
-    haptics::HandImpedance hand;
-    hand.mass = even_in_decades(0.02, 2.5);
-    hand.stiffness = even_in_decades(100.0, 1500.0);
-    hand.damping = 2.0 * between(0.1, 0.8, random) * std::sqrt(hand.stiffness * hand.mass);
+    haptics::HandImpedance hand = any_hand({unit(random), unit(random), unit(random)});
     std::string name = haptics::number_text(hand.mass, 3) + " kg, " + haptics::number_text(hand.damping, 1) +
                        " N s/m, " + haptics::number_text(hand.stiffness, 0) + " N/m";
     if (i % 3 == 2) {

@@ -22,8 +22,9 @@ std::vector<ContactHand> named_hands();  // those of haptics::kNamedHands and ha
 // The hand with an elastic grip, whose three values are drawn: fingers of 5 to 50 g, 1000 to 8000 N/m, and a damping ratio
 // of 0.1 to 0.8 for a handle of 0.1 kg. `drawn`: from 0 to 1.
 haptics::HandImpedance with_grip(haptics::HandImpedance hand, const std::array<double, 3>& drawn);
-// Hands of 0.02 to 2.5 kg, stiffness 100 to 1500 N/m and damping ratio 0.1 to 0.8, which a seed determines. Every third is
-// elastic.
+// A rigid hand of 0.02 to 2.5 kg and 100 to 1500 N/m, with a damping ratio of 0.1 to 0.8. `drawn`: from 0 to 1.
+haptics::HandImpedance any_hand(const std::array<double, 3>& drawn);
+// Hands as above, which a seed determines. Every third is elastic.
 std::vector<ContactHand> random_hands(int count, std::uint64_t seed);
 
 struct Campaign {
