@@ -121,6 +121,7 @@ class Session {
   void end_lesson_recording();
   void save_preset(const std::string& name);
   void change_learner(const std::string& name);
+  void rename_learner(const std::string& name);
   void begin_lesson();
   std::filesystem::path record_lesson(const std::string& lesson);
   void end_lesson();

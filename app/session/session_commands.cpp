@@ -84,6 +84,7 @@ struct Session::Handlers {
   void operator()(const ui::SetMode& asked) const { coach().set_mode(asked.mode); }
   void operator()(const ui::SetHelp& asked) const { coach().set_help(asked.on); }
   void operator()(const ui::ChooseLearner& asked) const { session.change_learner(asked.name); }
+  void operator()(const ui::RenameLearner& asked) const { session.rename_learner(asked.name); }
   void operator()(const ui::ChooseNextLesson& asked) const { coach().set_next(asked.key); }
   void operator()(const ui::AddComment& asked) const { coach().add_comment(asked.run, asked.author, asked.text); }
   void operator()(const ui::EditComment& asked) const { coach().edit_comment(asked.run, asked.comment, asked.text); }
@@ -149,7 +150,8 @@ SessionChoice Session::current_choice() const {
 void Session::change_choice(const SessionChoice& wanted, std::string_view reason) {
   switch_to(wanted, nullptr, reason);
   lever_.choice() = wanted;
-  if (director_.view().learner != learner_of(wanted)) director_.coach().set_learner(learner_of(wanted));
+  // Only with the automatic hand, because another program may have renamed the learner.
+  if (director_.view().learner.empty() != learner_of(wanted).empty()) director_.coach().set_learner(learner_of(wanted));
 }
 
 void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason) {
@@ -225,14 +227,21 @@ void Session::end_lesson_recording() {
 
 // Selects the learner. If the name is invalid, throws before anything changes.
 void Session::change_learner(const std::string& name) {
-  if (!name.empty()) lessons::check_learner_name(name);
-  lever_.choice().learner = name;
-  const bool has_ended_lesson = director_.set_learner(learner_of(lever_.choice()));
+  SessionChoice& choice = lever_.choice();
+  const bool is_automatic = choice.hand == kAutomaticHand;
+  const std::string stored = is_automatic && !name.empty() ? lessons::checked_learner_name(name) : std::string();
+  const bool has_ended_lesson = director_.set_learner(is_automatic ? std::string() : name);
+  choice.learner = is_automatic ? stored : director_.view().learner;
   message_.clear();
-  if (lever_.choice().hand == kAutomaticHand) message_ = "the simulated driver is driving, so nothing is saved";
+  if (is_automatic) message_ = "the simulated driver is driving, so nothing is saved";
   if (!has_ended_lesson) return;
   lever_.hold_car();
   report_early_end("the learner changed");
+}
+
+void Session::rename_learner(const std::string& name) {
+  director_.coach().rename_learner(name);
+  lever_.choice().learner = director_.view().learner;
 }
 
 // Puts the report about the lesson's end in front of the current message, which may be about a recording or a limit.

@@ -11,6 +11,7 @@
 #include "app/lessons/coach/learner_memory.h"
 #include "app/lessons/coach/planned_trial.h"
 #include "app/lessons/history/graded_trials.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -39,6 +40,7 @@ struct Coach::State {
     show_trial();
   }
 
+  std::string name_of(const std::string& typed);
   void refresh_view();
   void update_standings();
   void suggest();
@@ -75,8 +77,7 @@ struct Coach::State {
 };
 
 Coach::Coach(const CoachConfig& config) : state_(std::make_unique<State>(config)) {
-  if (!config.learner.empty()) check_learner_name(config.learner);
-  state_->memory.set_learner(config.learner);
+  state_->memory.set_learner(state_->name_of(config.learner));
   state_->refresh_view();
 }
 
@@ -101,14 +102,35 @@ std::optional<std::string> Coach::take_problem() {
   return state_->memory.take_problem();
 }
 
-void Coach::set_learner(const std::string& name) {
-  if (!name.empty()) check_learner_name(name);
+// The name of the learner whom the user means, or of a new learner.
+std::string Coach::State::name_of(const std::string& typed) {
+  if (typed.empty()) return {};
+  const std::optional<std::string> known = memory.known_name(typed);
+  if (known && *known == stored_name(typed)) return *known;
+  const std::string name = checked_learner_name(typed);
+  return known.value_or(name);
+}
+
+void Coach::set_learner(const std::string& typed) {
+  const std::string name = state_->name_of(typed);
   if (name == state_->memory.learner() && !state_->memory.is_learner_deleted()) return;
   state_->leave();
   state_->memory.set_learner(name);
   state_->chosen_mode.reset();
   state_->refresh_view();
   if (state_->lesson) state_->offer();
+}
+
+void Coach::rename_learner(const std::string& typed) {
+  const std::string name = checked_learner_name(typed), now = state_->memory.learner();
+  if (now.empty() || state_->memory.is_learner_deleted()) throw std::invalid_argument("no learner is chosen");
+  const std::optional<std::string> known = state_->memory.known_name(name);
+  if (known && *known != now)
+    throw std::invalid_argument(haptics::printable(*known) +
+                                " is another learner; add something that tells them apart");
+  if (name == now) return;
+  state_->memory.rename_learner(name);
+  state_->refresh_view();
 }
 
 void Coach::set_mode(LessonMode mode) {
@@ -216,16 +238,14 @@ void Coach::set_next(std::string_view lesson) {
 
 void Coach::add_comment(std::int64_t run, const std::string& author, const std::string& text) {
   state_->check_run(run);
-  check_user_text(UserText::name, "an instructor's name", author);
-  check_user_text(UserText::comment, "a comment", text);
-  state_->memory.add_comment(run, author, text);
+  state_->memory.add_comment(run, checked_text(UserText::name, "an instructor's name", author),
+                             checked_text(UserText::comment, "a comment", text));
   state_->refresh_view();
 }
 
 void Coach::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
   state_->check_comment(run, comment);
-  check_user_text(UserText::comment, "a comment", text);
-  state_->memory.edit_comment(run, comment, text);
+  state_->memory.edit_comment(run, comment, checked_text(UserText::comment, "a comment", text));
   state_->refresh_view();
 }
 

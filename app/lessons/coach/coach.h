@@ -48,8 +48,11 @@ class Coach {
 
   // A different learner ends the current trial. Call set_learner() only when the user chooses a learner: if another
   // program has deleted the current learner (CoachView::learner_deleted), the call creates a new one, even for the same
-  // name. set_mode() during a lesson applies from the next trial on.
-  void set_learner(const std::string& name);  // empty: no learner. Throws std::invalid_argument for an invalid name
+  // name. The name may be typed in another form (find_name() in user_text.h). set_mode() during a lesson applies from
+  // the next trial on.
+  void set_learner(const std::string& typed);  // empty: no learner. Throws std::invalid_argument for an invalid name
+  // Throws std::invalid_argument for an invalid name, for another learner's name, and without a learner.
+  void rename_learner(const std::string& typed);
   void set_mode(LessonMode mode);
   void set_help(bool on);
 

@@ -63,6 +63,7 @@ void LearnerMemory::open(milliseconds lock_timeout) {
     is_usable_ = true;
     is_disk_full_ = false;
     reported_.clear();
+    if (!history_->upgrade_note().empty()) report(history_->upgrade_note());
   } catch (const HistoryFull& problem) {
     is_disk_full_ = true;
     reason_ = problem.what();
@@ -113,6 +114,31 @@ std::vector<std::string> LearnerMemory::learners() {
   return names;
 }
 
+std::optional<std::string> LearnerMemory::known_name(const std::string& typed) {
+  const std::vector<std::string> names = learners();
+  const std::optional<std::size_t> found = find_name(names, typed);
+  return found ? std::optional(names[*found]) : std::nullopt;
+}
+
+void LearnerMemory::rename_learner(const std::string& name) {
+  std::string before = std::exchange(person_->name, name);
+  if (person_->id == 0) return;  // the name is saved with the first run
+  std::erase_if(pending_, [&](const PendingWrite& entry) {
+    const auto* pending = std::get_if<PendingName>(&entry.what);
+    if (pending == nullptr || entry.owner != person_) return false;
+    before = pending->before;
+    return true;
+  });
+  pending_.push_back({person_, now_(), PendingName{before, name}});
+  write_now();
+}
+
+bool LearnerMemory::has_pending_name(const PersonPtr& person) const noexcept {
+  return std::any_of(pending_.begin(), pending_.end(), [&](const PendingWrite& entry) {
+    return entry.owner == person && std::holds_alternative<PendingName>(entry.what);
+  });
+}
+
 // Returns the learner that was selected earlier under this name, otherwise a new learner.
 LearnerMemory::PersonPtr LearnerMemory::find_or_add_person(const std::string& name) {
   const auto known = std::find_if(people_.begin(), people_.end(),
@@ -151,7 +177,12 @@ void LearnerMemory::load() {
   if (person_->deleted) runs_.clear(), next_.clear();
   read([&] {
     const std::int64_t changes = history_->changes();
-    const LearnerRow row = row_of(history_->learners(), *person_);
+    const std::vector<LearnerRow> rows = history_->learners();
+    for (const PersonPtr& person : people_) {  // another program may have renamed a learner
+      const LearnerRow row = row_of(rows, *person);
+      if (row.id != 0 && !has_pending_name(person)) person->name = row.name;
+    }
+    const LearnerRow row = row_of(rows, *person_);
     if (row.id == 0 && person_->id != 0) person_->deleted = true;
     std::vector<RunRow> runs;
     if (row.id != 0) runs = history_->runs(row.id);

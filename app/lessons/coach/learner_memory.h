@@ -36,12 +36,16 @@ class LearnerMemory {
   // True if results can be saved. Stays true while another program locks the history for a moment.
   bool is_usable() const noexcept { return history_ && is_usable_ && !is_learner_deleted(); }
   std::optional<std::string> take_problem();
-  std::string problem() const { return problem_.value_or(""); }  // problem not yet returned, or empty
-  std::vector<std::string> learners();                           // sorted by name
+  std::string problem() const { return problem_.value_or(""); }     // problem not yet returned, or empty
+  std::vector<std::string> learners();                              // sorted by name
+  std::optional<std::string> known_name(const std::string& typed);  // the learner whom the name means (find_name())
 
-  // Selects the learner with this name. If there is none, selects a new learner. An empty name selects no learner.
-  // Writes nothing to the history.
+  // Selects the learner with exactly this name. If there is none, selects a new learner. An empty name selects no
+  // learner. Writes nothing to the history.
   void set_learner(const std::string& name);
+  // Renames the learner. `name`: checked, and of no other learner. If another program gives the name to another learner
+  // before it is saved, the old name returns, and the problem is reported.
+  void rename_learner(const std::string& name);
   const std::string& learner() const noexcept { return person_->name; }
   // True if another program deleted the learner: nothing is written until the next set_learner(), even with the same
   // name.
@@ -105,13 +109,16 @@ class LearnerMemory {
   struct PendingChoice {
     std::string lesson;
   };
+  struct PendingName {
+    std::string before, name;
+  };
   struct PendingRemoval {  // removes the recording from a saved run
     std::int64_t run = 0;
   };
   struct PendingWrite {
     PersonPtr owner;
     std::int64_t at = 0;  // [s] since 1970
-    std::variant<PendingRun, PendingComment, PendingChoice, PendingRemoval> what;
+    std::variant<PendingRun, PendingComment, PendingChoice, PendingName, PendingRemoval> what;
     bool written = false;
     int failures = 0;   // failed attempts since the last success, without those on a locked file or a full disk
     bool lost = false;  // given up, but still shown
@@ -129,6 +136,7 @@ class LearnerMemory {
   template <class Work>
   bool read(const Work& work);  // returns false if reading fails or there is no history
   PersonPtr find_or_add_person(const std::string& name);
+  bool has_pending_name(const PersonPtr& person) const noexcept;
   void load();
   bool drop_deleted();
   bool drop_pending_of(const PersonPtr& person);
@@ -147,6 +155,7 @@ class LearnerMemory {
   void write(PendingWrite& entry, PendingComment& comment);
   static void apply(const PendingComment& change, std::vector<CommentRow>& comments);
   void write(PendingWrite& entry, const PendingChoice& choice);
+  void write(PendingWrite& entry, const PendingName& name);
   void write(PendingWrite& entry, const PendingRemoval& removal);
   PendingWrite& current_run() noexcept;
   PendingWrite& find_or_add_comment(std::int64_t run, std::int64_t comment);
@@ -181,7 +190,8 @@ class LearnerMemory {
   std::optional<DrivingSession> session_;
 
   // Data that is not saved in the history yet.
-  std::vector<PendingWrite> pending_;  // oldest first; includes the run in progress; at most one choice per learner
+  // Oldest first; includes the run in progress; at most one choice and one name per learner.
+  std::vector<PendingWrite> pending_;
   std::vector<std::string> unreferenced_recordings_;
   bool in_run_ = false;
   std::int64_t last_run_ = 0;       // number of the last run

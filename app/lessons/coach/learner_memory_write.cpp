@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/lessons/coach/learner_memory.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -85,7 +86,7 @@ bool LearnerMemory::has_pending() const noexcept {
 
 // Returns text such as "2 runs, 1 comment".
 std::string LearnerMemory::describe_pending() const {
-  std::ptrdiff_t runs = 0, comments = 0, choices = 0;
+  std::ptrdiff_t runs = 0, comments = 0, choices = 0, names = 0;
   each_pending<PendingRun>(pending_,
                            [&](const PendingWrite& entry, const PendingRun&) { runs += is_waiting(entry) ? 1 : 0; });
   // Counts comments on unsaved runs as well.
@@ -94,8 +95,11 @@ std::string LearnerMemory::describe_pending() const {
   });
   each_pending<PendingChoice>(
       pending_, [&](const PendingWrite& entry, const PendingChoice&) { choices += is_waiting(entry) ? 1 : 0; });
+  each_pending<PendingName>(pending_,
+                            [&](const PendingWrite& entry, const PendingName&) { names += is_waiting(entry) ? 1 : 0; });
   const std::string text = counted(runs, "run", "runs") + counted(comments, "comment", "comments") +
-                           counted(choices, "choice of the next lesson", "choices of the next lesson");
+                           counted(choices, "choice of the next lesson", "choices of the next lesson") +
+                           counted(names, "new name", "new names");
   return text.empty() ? text : text.substr(2);
 }
 
@@ -146,7 +150,7 @@ bool LearnerMemory::write_pending(Moment until) {
 // Gives up entries that failed although others could be written: the fault is theirs, not the file's. They stay visible
 // in this session.
 void LearnerMemory::give_up(std::span<PendingWrite* const> failed) {
-  static constexpr std::array kWhat{"a run", "a comment", "the choice of the next lesson",
+  static constexpr std::array kWhat{"a run", "a comment", "the choice of the next lesson", "a new name",
                                     "the removal of a recording"};
   static_assert(kWhat.size() == std::variant_size_v<decltype(PendingWrite::what)>);
   for (PendingWrite* entry : failed) {
@@ -192,6 +196,15 @@ void LearnerMemory::write(PendingWrite& entry, PendingComment& comment) {
 
 void LearnerMemory::write(PendingWrite& entry, const PendingChoice& choice) {
   history_->set_next_lesson(id_for(*entry.owner), choice.lesson);
+  entry.written = true;
+}
+
+void LearnerMemory::write(PendingWrite& entry, const PendingName& name) {
+  if (!history_->rename_learner(entry.owner->id, name.name)) {
+    entry.owner->name = name.before;
+    report(fmt::format("Another learner is called {} now, so the name {} stays.", haptics::printable(name.name),
+                       haptics::printable(name.before)));
+  }
   entry.written = true;
 }
 

@@ -35,6 +35,10 @@ const std::filesystem::path& History::file() const noexcept {
   return state_->file;
 }
 
+const std::string& History::upgrade_note() const noexcept {
+  return state_->upgrade_note;
+}
+
 std::int64_t History::changes() {
   return state_->translating_errors([&] { return state_->database->execAndGet("PRAGMA data_version").getInt64(); });
 }

@@ -90,10 +90,16 @@ class History {
 
   void set_lock_timeout(std::chrono::milliseconds lock_timeout);  // applies to each call; 0: do not wait
 
-  // Returns the learner's number; adds the learner if necessary. Throws std::invalid_argument for an invalid name.
+  // A sentence on learners that were joined when the file was upgraded, because their names look equal; else empty.
+  const std::string& upgrade_note() const noexcept;
+
+  // Returns the number of the learner whom the name means (find_name() in user_text.h); adds the learner if there is
+  // none. Throws std::invalid_argument for an invalid new name.
   std::int64_t find_or_add_learner(std::string_view name);
   std::optional<LearnerRow> find_learner(std::string_view name);
   std::vector<LearnerRow> learners();
+  // Returns false, and changes nothing, if the name means another learner. Throws std::invalid_argument.
+  bool rename_learner(std::int64_t learner, std::string_view name);
   void set_next_lesson(std::int64_t learner, std::string_view lesson);  // empty: as suggested
 
   std::int64_t begin_session(std::int64_t learner, std::string_view program);

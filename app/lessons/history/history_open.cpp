@@ -2,16 +2,19 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/lessons/history/history_state.h"
 #include "app/lessons/history/schema.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -115,6 +118,7 @@ void History::State::open_copy() {
       copy_immutable(from);
     }
     if (checked_version() != kSchemaVersion) upgrade();
+    upgrade_note.clear();  // the file itself is unchanged
     database->exec("PRAGMA query_only = ON");
   });
 }
@@ -196,9 +200,45 @@ void History::State::upgrade() {
   else
     for (const char* script : std::span(kUpgrades).subspan(static_cast<std::size_t>(version - 1)))
       database->exec(script);
+  if (version == 1) join_equal_learners();
   database->exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   transaction.commit();
+}
+
+// Version 1 compared names byte by byte, so one name in two forms was two learners. Gives their sessions to the older
+// one, and stores every name in its stored form.
+void History::State::join_equal_learners() {
+  std::vector<LearnerRow> rows = learners(), kept;
+  std::sort(rows.begin(), rows.end(), [](const LearnerRow& a, const LearnerRow& b) { return a.id < b.id; });
+  std::string joined;
+  for (LearnerRow& row : rows) {
+    row.name = stored_name(row.name);
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const LearnerRow& k) { return k.name == row.name; });
+    if (same == kept.end()) {
+      kept.push_back(row);
+      continue;
+    }
+    for (const char* text : {"UPDATE session SET learner = ?1 WHERE learner = ?2",
+                             "UPDATE learner SET next_lesson = (SELECT next_lesson FROM learner WHERE id = ?2) "
+                             "WHERE id = ?1 AND next_lesson = ''",
+                             "DELETE FROM learner WHERE id = ?2 AND ?1 > 0"}) {
+      SQLite::Statement statement = query(text);
+      statement.bind(1, same->id);
+      statement.bind(2, row.id);
+      statement.exec();
+    }
+    joined += (joined.empty() ? "" : ", ") + haptics::printable(row.name);
+  }
+  for (const LearnerRow& row : kept) {
+    SQLite::Statement update = query("UPDATE learner SET name = ? WHERE id = ?");
+    update.bind(1, row.name);
+    update.bind(2, row.id);
+    update.exec();
+  }
+  if (!joined.empty())
+    upgrade_note = fmt::format("{}: learners whose names look the same were joined, with all their runs: {}",
+                               file.string(), joined);
 }
 
 // Throws if the file was removed, replaced or upgraded. Writes to a removed file would succeed, but no one could read

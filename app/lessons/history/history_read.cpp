@@ -80,23 +80,30 @@ RunRow run_in(const SQLite::Statement& row) {
 
 }  // namespace
 
+std::vector<LearnerRow> History::State::learners() {
+  std::vector<LearnerRow> all;
+  SQLite::Statement rows = query("SELECT id, name, made_at, next_lesson FROM learner ORDER BY name");
+  while (rows.executeStep()) {
+    all.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
+                   rows.getColumn(3).getString()});
+  }
+  return all;
+}
+
+std::optional<LearnerRow> History::State::find_learner(std::string_view name) {
+  const std::vector<LearnerRow> rows = learners();
+  std::vector<std::string> names;
+  for (const LearnerRow& row : rows) names.push_back(row.name);
+  const std::optional<std::size_t> found = find_name(names, name);
+  return found ? std::optional(rows[*found]) : std::nullopt;
+}
+
 std::vector<LearnerRow> History::learners() {
-  return state_->translating_errors([&] {
-    std::vector<LearnerRow> all;
-    SQLite::Statement rows = state_->query("SELECT id, name, made_at, next_lesson FROM learner ORDER BY name");
-    while (rows.executeStep()) {
-      all.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
-                     rows.getColumn(3).getString()});
-    }
-    return all;
-  });
+  return state_->translating_errors([&] { return state_->learners(); });
 }
 
 std::optional<LearnerRow> History::find_learner(std::string_view name) {
-  for (LearnerRow& row : learners()) {
-    if (row.name == name) return std::move(row);
-  }
-  return std::nullopt;
+  return state_->translating_errors([&] { return state_->find_learner(name); });
 }
 
 std::vector<RunRow> History::runs(std::int64_t learner) {

@@ -26,6 +26,10 @@ struct History::State {
   void insert_shift(std::int64_t run, const ShiftRecord& shift);
   void replace_errors(std::int64_t run, const LessonResult& result);
 
+  // history_read.cpp
+  std::vector<LearnerRow> learners();
+  std::optional<LearnerRow> find_learner(std::string_view name);
+
   // recording_path.cpp
   std::string relative_recording(const std::string& recording) const;  // path as stored in the history
 
@@ -66,6 +70,7 @@ struct History::State {
   Clock now;
   std::chrono::milliseconds lock_timeout;
   std::unique_ptr<SQLite::Database> database;
+  std::string upgrade_note;
 
  private:
   std::string absolute_path() const;
@@ -74,6 +79,7 @@ struct History::State {
   int checked_version();
   int version_in_file();
   void upgrade();
+  void join_equal_learners();
   void enable_write_ahead_log();
   void copy_locked(const std::string& from);
   void copy_immutable(const std::string& from);

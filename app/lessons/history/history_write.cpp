@@ -27,16 +27,29 @@ void History::State::replace_errors(std::int64_t run, const LessonResult& result
 }
 
 std::int64_t History::find_or_add_learner(std::string_view name) {
-  check_learner_name(name);
   return state_->write([&] {
-    SQLite::Statement insert = state_->query("INSERT OR IGNORE INTO learner (name, made_at) VALUES (?, ?)");
-    insert.bind(1, std::string(name));
+    const std::optional<LearnerRow> known = state_->find_learner(name);
+    if (known && known->name == stored_name(name)) return known->id;
+    const std::string stored = checked_learner_name(name);
+    if (known) return known->id;
+    SQLite::Statement insert = state_->query("INSERT INTO learner (name, made_at) VALUES (?, ?)");
+    insert.bind(1, stored);
     insert.bind(2, state_->date());
     insert.exec();
-    SQLite::Statement find = state_->query("SELECT id FROM learner WHERE name = ?");
-    find.bind(1, std::string(name));
-    find.executeStep();
-    return find.getColumn(0).getInt64();
+    return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
+  });
+}
+
+bool History::rename_learner(std::int64_t learner, std::string_view name) {
+  const std::string stored = checked_learner_name(name);
+  return state_->write([&] {
+    const std::optional<LearnerRow> known = state_->find_learner(stored);
+    if (known && known->id != learner) return false;
+    SQLite::Statement update = state_->query("UPDATE learner SET name = ? WHERE id = ?");
+    update.bind(1, stored);
+    update.bind(2, learner);
+    if (update.exec() == 0) state_->fail_as_deleted();
+    return true;
   });
 }
 
@@ -104,24 +117,24 @@ void History::clear_recording(std::int64_t run) {
 }
 
 std::int64_t History::add_comment(std::int64_t run, std::string_view author, std::string_view text) {
-  check_user_text(UserText::name, "an instructor's name", author);
-  check_user_text(UserText::comment, "a comment", text);
+  const std::string by = checked_text(UserText::name, "an instructor's name", author);
+  const std::string stored = checked_text(UserText::comment, "a comment", text);
   return state_->write([&] {
     SQLite::Statement insert = state_->query("INSERT INTO comment (run, made_at, author, text) VALUES (?, ?, ?, ?)");
     insert.bind(1, run);
     insert.bind(2, state_->date());
-    insert.bind(3, std::string(author));
-    insert.bind(4, std::string(text));
+    insert.bind(3, by);
+    insert.bind(4, stored);
     insert.exec();
     return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
   });
 }
 
 bool History::edit_comment(std::int64_t comment, std::string_view text) {
-  check_user_text(UserText::comment, "a comment", text);
+  const std::string stored = checked_text(UserText::comment, "a comment", text);
   return state_->write([&] {
     SQLite::Statement update = state_->query("UPDATE comment SET text = ?, edited_at = ? WHERE id = ?");
-    update.bind(1, std::string(text));
+    update.bind(1, stored);
     update.bind(2, state_->date());
     update.bind(3, comment);
     return update.exec() > 0;

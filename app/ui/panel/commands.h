@@ -65,6 +65,9 @@ struct SetHelp {
 struct ChooseLearner {
   std::string name;  // of a known or new learner; empty: no learner
 };
+struct RenameLearner {
+  std::string name;  // of no other learner
+};
 struct ChooseNextLesson {
   std::string key;  // empty: as suggested
 };
@@ -128,9 +131,9 @@ using ControlsCommand = std::variant<StartControls, DeclineControls, AnswerContr
 using PanelCommand =
     std::variant<Stop, Arm, Disarm, ToggleRecording, ReplayLastRecording, ResetView, ChangeTuning, Restart, ChooseGate,
                  ChooseCar, ChoosePreset, ChooseHand, SavePreset, ComparePreset, OfferLesson, BeginLesson, LeaveLesson,
-                 DismissLesson, SetMode, SetHelp, ChooseLearner, ChooseNextLesson, AddComment, EditComment,
-                 DeleteComment, OpenShift, ShowShift, ShowWholeDrive, SeekReplay, PlayReplay, SetPace, CloseReplay,
-                 HeadsetCommand, ControlsCommand>;
+                 DismissLesson, SetMode, SetHelp, ChooseLearner, RenameLearner, ChooseNextLesson, AddComment,
+                 EditComment, DeleteComment, OpenShift, ShowShift, ShowWholeDrive, SeekReplay, PlayReplay, SetPace,
+                 CloseReplay, HeadsetCommand, ControlsCommand>;
 using PanelCommands = std::vector<PanelCommand>;
 
 }  // namespace gearshift::ui

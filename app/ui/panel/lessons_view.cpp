@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,30 +24,10 @@ void fill(std::array<char, n>& field, const std::string& text) {
   std::snprintf(field.data(), n, "%s", text.c_str());
 }
 
-std::string trimmed(std::string text) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && is_blank(text.back())) text.pop_back();
-  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_blank));
-  return text;
-}
-
-bool is_known(const lessons::CoachView& coach, const std::string& name) {
-  return std::find(coach.learners.begin(), coach.learners.end(), name) != coach.learners.end();
-}
-
-// Draws the known learners as a drop-down list. `width` [px]: width of the opened list.
-void draw_known(Controls& controls, const lessons::CoachView& coach, float width, PanelCommands& out) {
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
-  const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
-  controls.mark("learner_known");
-  if (!open) return;
-  const auto entry = [&](const std::string& name, const char* label) {
-    if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.push_back(ChooseLearner{name});
-    controls.mark(controls.join("learner", name));
-  };
-  for (const std::string& name : coach.learners) entry(name, name.c_str());
-  entry({}, kNoLearner);
-  ImGui::EndCombo();
+// The known learner whom the name means; empty: none.
+std::string known_name(const lessons::CoachView& coach, const std::string& name) {
+  const std::optional<std::size_t> found = lessons::find_name(coach.learners, name);
+  return found ? coach.learners[*found] : std::string();
 }
 
 // False if the current font lacks a character of the name.
@@ -68,9 +50,9 @@ void draw_note(const lessons::CoachView& coach, const std::string& name, const s
   if (!has_all_glyphs(name))
     put_wrapped("The name is saved as typed. Characters that cannot be displayed are shown as \"?\".", ink::kWarn);
   if (is_typing && name != coach.learner)
-    return put_wrapped(
-        name.empty() || is_known(coach, name) ? "Press Enter to switch learners." : "Press Enter to add this learner.",
-        ink::kAccent);
+    return put_wrapped(name.empty() || !known_name(coach, name).empty() ? "Press Enter to switch learners."
+                                                                        : "Press Enter to add this learner.",
+                       ink::kAccent);
   if (coach.learner_deleted)
     return put_wrapped(
         "Another program deleted this learner, so nothing is being saved. Press Enter in this field to add the name "
@@ -210,30 +192,91 @@ void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool
   draw_list(controls, coach, can_offer, out);
 }
 
+// Draws the known learners as a drop-down list, with an entry that renames the current one. `width` [px]: width of the
+// opened list.
+void LessonsView::draw_known(Controls& controls, const lessons::CoachView& coach, float width, PanelCommands& out) {
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
+  const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
+  controls.mark("learner_known");
+  if (!open) return;
+  const auto entry = [&](const std::string& name, const char* label) {
+    if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.push_back(ChooseLearner{name});
+    controls.mark(controls.join("learner", name));
+  };
+  for (const std::string& name : coach.learners) entry(name, name.c_str());
+  entry({}, kNoLearner);
+  if (!coach.learner.empty() && !coach.learner_deleted) {
+    ImGui::Separator();
+    if (ImGui::Selectable(fmt::format("Rename {}", coach.learner).c_str())) is_renaming_ = takes_keyboard_ = true;
+    controls.mark("learner_rename");
+  }
+  ImGui::EndCombo();
+}
+
+// Asks whether the user is the learner who has this name already.
+void LessonsView::draw_question(Controls& controls, PanelCommands& out) {
+  put_wrapped(fmt::format("There is a learner named {} already. Is this you?", asked_), ink::kAccent);
+  const bool is_same = controls.button("learner_same", "Yes", {0.0f, 0.0f}, ink::kPrimary);
+  ImGui::SameLine();
+  const bool is_other = controls.button("learner_other", "No");
+  if (is_same) out.push_back(ChooseLearner{asked_});
+  if (is_other) refused_ = asked_, takes_keyboard_ = true;
+  if (is_same || is_other) asked_.clear();
+}
+
+// Applies a valid name that was typed.
+void LessonsView::apply_name(const lessons::CoachView& coach, const std::string& name, PanelCommands& out) {
+  const std::string known = known_name(coach, name);
+  const bool is_others = !known.empty() && known != coach.learner;
+  if (is_renaming_ && is_others)
+    refused_ = known, takes_keyboard_ = true;
+  else if (is_renaming_)
+    out.push_back(RenameLearner{name}), is_renaming_ = false;
+  else if (is_others)
+    asked_ = known;
+  else if (known.empty() || coach.learner_deleted)
+    out.push_back(ChooseLearner{name});
+}
+
 // Draws the field for the learner's name. Pressing Enter or leaving the field applies a typed name; Escape discards it.
 void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
                                PanelCommands& out) {
-  if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
+  if (coach.learner != shown_) {
+    fill(name_, shown_ = coach.learner);
+    asked_.clear(), refused_.clear();
+    is_renaming_ = false;
+  }
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("Learner");
+  ImGui::TextDisabled("%s", is_renaming_ ? "Rename" : "Learner");
   ImGui::SameLine(4.6f * engine::ui_em() - ImGui::GetStyle().WindowPadding.x);  // aligned with the lists above
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight());
+  if (std::exchange(takes_keyboard_, false)) ImGui::SetKeyboardFocusHere();
   const bool entered =
       ImGui::InputTextWithHint("##learner", kNoLearner, name_.data(), name_.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   controls.mark("learner");
   const bool is_typing = ImGui::IsItemActive(), left = ImGui::IsItemDeactivated();
-  const bool is_cancelled = left && ImGui::IsKeyPressed(ImGuiKey_Escape, false),
+  const bool is_emptied = is_renaming_ && name_[0] == '\0';
+  const bool is_cancelled = left && (is_emptied || ImGui::IsKeyPressed(ImGuiKey_Escape, false)),
              leaves = left || (is_typing && ImGui::IsKeyPressed(ImGuiKey_Tab, false));
-  const std::string name = trimmed(name_.data());
+  const std::string name = lessons::stored_name(name_.data());
   const std::string problem =
       name.empty() ? std::string() : lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);
+  if (is_typing || is_cancelled) asked_.clear();
   const bool is_another = name != coach.learner || (entered && coach.learner_deleted);
-  if ((entered || leaves) && !is_cancelled && problem.empty() && is_another) out.push_back(ChooseLearner{name});
-  if (left) fill(name_, is_cancelled ? coach.learner : name);
+  if ((entered || leaves) && !is_cancelled && problem.empty() && is_another) apply_name(coach, name, out);
+  if (left && !takes_keyboard_) is_renaming_ = false;
+  if (left) fill(name_, is_cancelled || known_name(coach, name) == coach.learner ? coach.learner : name);
   ImGui::SameLine(0.0f, 0.0f);
   draw_known(controls, coach, width, out);
+  if (!asked_.empty()) return draw_question(controls, out);
+  if (!refused_.empty() && refused_ != known_name(coach, name)) refused_.clear();
+  if (!refused_.empty())
+    return put_wrapped(fmt::format("{} is another learner: add a surname, for example.", refused_), ink::kWarn);
+  if (is_renaming_)
+    return put_wrapped(problem.empty() ? "Type the new name and press Enter." : problem,
+                       problem.empty() ? ink::kAccent : ink::kWarn);
   draw_note(coach, name, is_cancelled ? std::string() : problem, is_typing, is_automatic_hand);
 }
 

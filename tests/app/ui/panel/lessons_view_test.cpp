@@ -98,6 +98,76 @@ TEST_CASE("a learner's name is typed and confirmed with Enter, chosen from the l
   CHECK(value(rig.click("learner: "), &ChooseLearner::name) == std::string());
 }
 
+// A learner who returns says so, and another person of the same name gets a name of their own. A name in another form is
+// the same name.
+TEST_CASE("a typed name that a learner has already is asked apart") {
+  for (const char32_t* typed : {U"Bert", U"bert", U" BERT"}) {
+    LessonsRig rig(half_way());
+    rig.click("learner");
+    rig.write(typed);
+    CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));
+    rig.frame();
+    CHECK(is_drawn("There is a learner named Bert already. Is this you?"));
+    CHECK(value(rig.click("learner_same"), &ChooseLearner::name) == "Bert");
+  }
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  rig.write(U"Bert");
+  rig.press(kEnter);
+  rig.frame();
+  CHECK_FALSE(has<ChooseLearner>(rig.click("learner_other")));
+  rig.frame();
+  CHECK(rig.panel.has_keyboard());
+  CHECK(is_drawn("Bert is another learner: add a surname, for example."));
+  CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));  // the same name again is asked again
+  rig.frame();
+  CHECK(rig.panel.control_rect("learner_same").has_value());
+  rig.click("learner_other");
+  rig.frame();
+  rig.write(U"Bert Smith");
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "Bert Smith");
+  // Control: the current learner's own name in another form asks and changes nothing.
+  LessonsRig own(half_way());
+  own.click("learner");
+  own.write(U"ada example");
+  CHECK_FALSE(has<ChooseLearner>(own.press(kEnter)));
+  own.frame();
+  CHECK_FALSE(own.panel.control_rect("learner_same").has_value());
+}
+
+TEST_CASE(
+    "the list of learners renames the current one; another learner's name is refused, Escape keeps the old name") {
+  LessonsRig rig(half_way());
+  const auto rename = [&](const std::u32string& name) {
+    rig.click("learner_known");
+    rig.click("learner_rename");
+    rig.frame();
+    rig.frame();
+    CHECK(rig.panel.has_keyboard());
+    return rig.write(name);
+  };
+  rename(U"Ada Lovelace");
+  const auto asked = find<RenameLearner>(rig.press(kEnter));
+  REQUIRE(asked);
+  CHECK(asked->name == "Ada Lovelace");
+  rename(U"bert");
+  CHECK_FALSE(has<RenameLearner>(rig.press(kEnter)));
+  rig.frame();
+  CHECK(is_drawn("Bert is another learner: add a surname, for example."));
+  rig.press(kEscape);
+  rig.frame();
+  CHECK(is_drawn("Ada Example"));
+  rename(U"Zoe");
+  CHECK_FALSE(has<RenameLearner>(rig.press(kEscape)));
+  rig.click("learner");
+  rig.write(U"Zoe");
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "Zoe");  // no longer a new name for the current learner
+  rig.input.coach.learner.clear();
+  rig.frame();
+  rig.click("learner_known");
+  CHECK_FALSE(rig.panel.control_rect("learner_rename").has_value());
+}
+
 TEST_CASE("a field has the keyboard from the frame in which it was clicked") {
   LessonsRig rig(half_way());
   rig.point("learner");
