@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/core.h>
 
 namespace gearshift::lessons {
 namespace {
 
-constexpr std::size_t kLastResults = 3;  // engineering value
+constexpr int kLastResults = 3;  // engineering value
 
 bool was_passed(std::span<const GradedTrial> past, std::string_view lesson) {
   return std::any_of(past.begin(), past.end(), [&](const GradedTrial& r) { return r.passed && r.lesson == lesson; });
@@ -19,66 +20,107 @@ bool is_weaker(const RecentResults& a, const RecentResults& b) noexcept {
   return more != 0 ? more > 0 : a.grade < b.grade;
 }
 
-// True if at least half of the recent runs failed. A lesson that was never passed counts as weak only after three runs,
-// because failed runs are normal at first.
-bool is_weak(const RecentResults& form, bool passed_once) noexcept {
-  const bool tried = passed_once || form.runs >= static_cast<int>(kLastResults);
-  return tried && 2 * form.failed >= form.runs;
-}
-
-// Returns the weakest lesson among those passed once or, with `only_weak`, among those for which is_weak() is true.
-const Lesson* weakest(std::span<const Lesson> lessons, std::span<const GradedTrial> past, bool only_weak) {
+// Returns the weakest of the lessons that `counts` accepts, or null.
+const Lesson* weakest(std::span<const Lesson> lessons, std::span<const GradedTrial> past, const auto& counts) {
   const Lesson* found = nullptr;
   RecentResults lowest;
   for (const Lesson& lesson : lessons) {
     const std::optional<RecentResults> form = recent_results(past, lesson.task);
-    if (!form) continue;
-    const bool passed_once = was_passed(past, lesson.key);
-    if (only_weak ? !is_weak(*form, passed_once) : !passed_once) continue;
-    if (found != nullptr && !is_weaker(*form, lowest)) continue;
+    if (!form || !counts(*form) || (found != nullptr && !is_weaker(*form, lowest))) continue;
     found = &lesson;
     lowest = *form;
   }
   return found;
 }
 
+const Lesson* find_lesson(std::span<const Lesson> lessons, const auto& is_wanted) {
+  const auto found = std::find_if(lessons.begin(), lessons.end(), is_wanted);
+  return found == lessons.end() ? nullptr : &*found;
+}
+
+std::string never_passed_text(const Lesson& lesson, std::span<const GradedTrial> past,
+                              std::span<const UngradedTrial> others) {
+  const std::string tried = tries_text(count_tries(past, others, lesson.task));
+  return fmt::format("You haven't passed {} yet{}.", lesson.title, tried.empty() ? "" : " (" + tried + ")");
+}
+
 std::string weak_lesson_text(const Lesson& lesson, const RecentResults& form) {
-  return fmt::format("{} needs practice: {} of the last {} attempts failed (average grade {:.1f}).", lesson.title,
-                     form.failed, form.runs, form.grade);
+  return fmt::format("{} needs practice: {} of the last {} attempts failed, the latest one too (recent grade {:.1f}).",
+                     lesson.title, form.failed, form.runs, form.grade);
 }
 
 }  // namespace
 
+bool is_weak(const RecentResults& form) noexcept {
+  return form.failed_last && 2 * form.failed >= form.runs;
+}
+
+bool was_confirmed(std::span<const GradedTrial> past, std::string_view task) {
+  const auto is_pass = [&](const GradedTrial& r) { return r.passed && r.task == task; };
+  const auto first = std::find_if(past.begin(), past.end(), is_pass);
+  bool has_other = false;
+  for (auto trial = first; trial != past.end(); ++trial) {
+    has_other = has_other || trial->task != task;
+    if (trial != first && is_pass(*trial) &&
+        (has_other || trial->begun_at.substr(0, 10) != first->begun_at.substr(0, 10)))
+      return true;
+  }
+  return false;
+}
+
 std::optional<RecentResults> recent_results(std::span<const GradedTrial> past, std::string_view task) {
   RecentResults form;
-  for (std::size_t i = past.size(); i > 0 && form.runs < static_cast<int>(kLastResults); --i) {
-    if (past[i - 1].task != task) continue;
+  double weights = 0.0;
+  for (std::size_t i = past.size(); i > 0 && form.runs < kLastResults; --i) {
+    const GradedTrial& trial = past[i - 1];
+    if (trial.task != task) continue;
+    if (form.runs == 0) form.failed_last = !trial.passed;
+    const double weight = kLastResults - form.runs;
     ++form.runs;
-    form.failed += past[i - 1].passed ? 0 : 1;
-    form.grade += past[i - 1].grade;
+    form.failed += trial.passed ? 0 : 1;
+    form.grade += weight * trial.grade;
+    weights += weight;
   }
   if (form.runs == 0) return std::nullopt;
-  form.grade /= form.runs;
+  form.grade /= weights;
   return form;
 }
 
-std::optional<double> task_grade(std::span<const GradedTrial> past, std::string_view task) {
-  const std::optional<RecentResults> form = recent_results(past, task);
-  return form ? std::optional(form->grade) : std::nullopt;
+Tries count_tries(std::span<const GradedTrial> past, std::span<const UngradedTrial> others, std::string_view task) {
+  Tries tries;
+  for (const GradedTrial& trial : past) {
+    if (trial.task == task) ++(trial.passed ? tries.passed : tries.failed);
+  }
+  for (const UngradedTrial& trial : others) {
+    if (trial.task == task) ++(trial.was_left ? tries.given_up : trial.was_guided ? tries.guided : tries.cut_off);
+  }
+  return tries;
 }
 
-std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past) {
-  if (lessons.empty()) return std::nullopt;
-  if (const Lesson* lesson = weakest(lessons, past, true)) {
-    return Suggestion{lesson->key, weak_lesson_text(*lesson, *recent_results(past, lesson->task))};
+std::string tries_text(const Tries& tries) {
+  std::string text;
+  for (const auto& [count, label] : {std::pair(tries.failed, "failed"),
+                                     {tries.guided, "guided"},
+                                     {tries.given_up, "given up"},
+                                     {tries.cut_off, "cut off"}}) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, label);
   }
-  const auto open =
-      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return !was_passed(past, lesson.key); });
-  if (open != lessons.end()) return Suggestion{open->key, fmt::format("You haven't passed {} yet.", open->title)};
-  const Lesson* lesson = weakest(lessons, past, false);
-  return Suggestion{
-      lesson->key, fmt::format("You have passed all lessons; {} is the weakest, with a recent average grade of {:.1f}.",
-                               lesson->title, *task_grade(past, lesson->task))};
+  return text;
+}
+
+std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
+                                         std::span<const UngradedTrial> others) {
+  if (lessons.empty()) return std::nullopt;
+  if (const Lesson* lesson = find_lesson(lessons, [&](const Lesson& l) { return !was_passed(past, l.key); }))
+    return Suggestion{lesson->key, never_passed_text(*lesson, past, others)};
+  if (const Lesson* lesson = weakest(lessons, past, is_weak))
+    return Suggestion{lesson->key, weak_lesson_text(*lesson, *recent_results(past, lesson->task))};
+  if (const Lesson* lesson = find_lesson(lessons, [&](const Lesson& l) { return !was_confirmed(past, l.task); }))
+    return Suggestion{lesson->key, fmt::format("You have passed {} once; pass it again to be sure.", lesson->title)};
+  const Lesson* lesson = weakest(lessons, past, [](const RecentResults&) { return true; });
+  return Suggestion{lesson->key,
+                    fmt::format("You have passed all lessons twice; {} is the weakest, with a recent grade of {:.1f}.",
+                                lesson->title, recent_results(past, lesson->task)->grade)};
 }
 
 }  // namespace gearshift::lessons

@@ -1,4 +1,4 @@
-// Suggests the next lesson from the learner's weaknesses.
+// Suggests the next lesson from what the learner has passed, failed and tried.
 #pragma once
 
 #include <array>
@@ -23,6 +23,13 @@ struct GradedTrial {
   double pause = 0.0;      // [s] break of at least kRetentionPause since the lesson's previous run; 0: none
 };
 
+// A finished run without a grade.
+struct UngradedTrial {
+  std::string task;
+  bool was_left = false;    // given up by the learner
+  bool was_guided = false;  // neither: data or forces were missing
+};
+
 struct Suggestion {
   std::string lesson;  // key
   std::string why;     // one sentence
@@ -35,22 +42,33 @@ inline constexpr std::array<std::string_view, 13> kTeachingOrder{
     "reverse",        "hill_start",   "emergency_stop", "skip_shifts",          "eco_driving",
     "rev_matching",   "another_gate", "six_speed"};
 
-// Mean grade of a task's last three results [1], 0 to 10; empty if there are none.
-std::optional<double> task_grade(std::span<const GradedTrial> past, std::string_view task);
-
 // Summary of a task's last three results. The task with the larger fraction of failed runs is the weaker one; if the
 // fractions are equal, the task with the lower grade.
 struct RecentResults {
   int runs = 0, failed = 0;
-  double grade = 0.0;  // [1] 0 to 10, mean grade
+  bool failed_last = false;  // the newest one failed
+  double grade = 0.0;        // [1] 0 to 10, mean; from the newest on, the grades have weights of 3, 2 and 1
 };
 // Empty if there are no results.
 std::optional<RecentResults> recent_results(std::span<const GradedTrial> past, std::string_view task);
 
-// Suggests the weakest lesson that needs practice. If none needs practice, suggests the first lesson never passed. If
-// all were passed, suggests the weakest lesson. A lesson needs practice if at least half of its task's last three
-// results failed, and if the lesson was passed once or the task has three results. `lessons` is in teaching order; if
-// it is empty, the result is empty, too.
-std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past);
+// True if the newest run failed, and at least half of them: one bad run among good ones is no weakness, and a run that
+// was passed after failed ones is an improvement.
+bool is_weak(const RecentResults& form) noexcept;
+
+// True if the task was passed twice, the second time on another day or after a graded run of another task.
+bool was_confirmed(std::span<const GradedTrial> past, std::string_view task);
+
+struct Tries {
+  int passed = 0, failed = 0;                 // graded
+  int guided = 0, given_up = 0, cut_off = 0;  // not graded; cut_off: data or forces were missing
+};
+Tries count_tries(std::span<const GradedTrial> past, std::span<const UngradedTrial> others, std::string_view task);
+std::string tries_text(const Tries& tries);  // those that were not passed: "2 failed, 3 guided"; may be empty
+
+// Suggests, in this order: the first lesson that was never passed, the weakest of those with is_weak(), the first
+// not confirmed, the weakest. `lessons` is in teaching order; if it is empty, the result is empty, too.
+std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
+                                         std::span<const UngradedTrial> others);
 
 }  // namespace gearshift::lessons

@@ -297,7 +297,7 @@ void Coach::State::suggest() {
     view.next_why = "Chosen by the instructor.";
     return;
   }
-  const Suggestion next = suggest_lesson(config.lessons, past).value_or(Suggestion{});
+  const Suggestion next = suggest_lesson(config.lessons, past, ungraded_trials(memory.runs())).value_or(Suggestion{});
   view.next = next.lesson;
   view.next_why = next.why;
 }

@@ -29,4 +29,14 @@ std::vector<GradedTrial> graded_trials(std::span<const RunRow> runs) {
   return trials;
 }
 
+std::vector<UngradedTrial> ungraded_trials(std::span<const RunRow> runs) {
+  std::vector<UngradedTrial> trials;
+  for (const RunRow& run : runs) {
+    const LessonResult& result = run.result;
+    if (result.end != LessonEnd::running && !is_graded(result))
+      trials.push_back({result.task, result.end == LessonEnd::left, result.guided});
+  }
+  return trials;
+}
+
 }  // namespace gearshift::lessons

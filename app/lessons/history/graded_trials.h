@@ -19,4 +19,7 @@ std::optional<double> retention_pause(std::optional<std::int64_t> before, std::o
 // graded or not; runs that ended early or never ended are ignored.
 std::vector<GradedTrial> graded_trials(std::span<const RunRow> runs);
 
+// The other runs that ended, by the learner or at their end, oldest first.
+std::vector<UngradedTrial> ungraded_trials(std::span<const RunRow> runs);
+
 }  // namespace gearshift::lessons

@@ -4,6 +4,7 @@
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
 #include "app/lessons/report/sections.h"
+#include "app/lessons/report/standing.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -18,21 +19,19 @@ std::string format_days(const Totals& sum) {
   return sum.first_day + " to " + sum.last_day;
 }
 
-std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
-  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, graded_trials(history.runs));
-  const bool is_chosen = is_lesson(lessons, history.learner.next_lesson);
-  const std::string wanted = is_chosen ? history.learner.next_lesson : std::string();
-  if (wanted.empty() && !suggestion) return {};
-  const std::string suggested =
-      suggestion ? fmt::format("{}. {}", lesson_title(lessons, suggestion->lesson), suggestion->why) : std::string();
-  if (wanted.empty()) {
-    return fmt::format("<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>. {}</p>\n",
-                       base::html_text(lesson_title(lessons, suggestion->lesson)), base::html_text(suggestion->why));
-  }
+std::string next_paragraph(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  LearnerHistory unchosen = history;
+  unchosen.learner.next_lesson.clear();
+  const NextLesson next = next_lesson(history, lessons), suggested = next_lesson(unchosen, lessons);
+  if (next.lesson.empty()) return {};
+  const std::string title = base::html_text(lesson_title(lessons, next.lesson));
+  if (!next.by_instructor)
+    return fmt::format("<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>. {}</p>\n", title,
+                       base::html_text(next.why));
   return fmt::format(
-      "<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>, chosen by the instructor.{}</p>\n",
-      base::html_text(lesson_title(lessons, wanted)),
-      suggestion ? " Based on the grades, the next lesson would be " + base::html_text(suggested) : "");
+      "<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>, chosen by the instructor. Based on the "
+      "grades, the next lesson would be {}. {}</p>\n",
+      title, base::html_text(lesson_title(lessons, suggested.lesson)), base::html_text(suggested.why));
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ std::string head_section(const LearnerHistory& history, std::span<const Lesson> 
           total_item("lesson-runs", "lesson runs", std::to_string(sum.runs)) +
           total_item("shift-count", "shifts", std::to_string(sum.shifts)) +
           total_item("minutes", "minutes driven", fmt::format("{:.1f}", sum.driven / 60.0)) + "</dl>\n";
-  return head + next_lesson(history, lessons) + "</header>\n";
+  return head + next_paragraph(history, lessons) + "</header>\n";
 }
 
 }  // namespace gearshift::lessons

@@ -1,21 +1,22 @@
 #include "app/lessons/report/learner_table.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
+#include "app/lessons/report/standing.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift::lessons {
 namespace {
 
 std::string format_next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
-  const std::string& wanted = history.learner.next_lesson;
-  if (is_lesson(lessons, wanted)) return haptics::printable(wanted) + " (chosen by the instructor)";
-  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, graded_trials(history.runs));
-  return suggestion ? haptics::printable(suggestion->lesson) : "-";
+  const NextLesson next = next_lesson(history, lessons);
+  if (next.lesson.empty()) return "-";
+  return haptics::printable(next.lesson) + (next.by_instructor ? " (chosen by the instructor)" : "");
 }
 
 // Lists the comments with the numbers needed to edit them. Line breaks within a comment become blanks.
@@ -33,13 +34,16 @@ std::string comment_lines(const LearnerHistory& history) {
 }  // namespace
 
 std::string learner_table(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons) {
-  std::size_t width = 7;
-  for (const LearnerHistory& history : learners) width = std::max(width, history.learner.name.size());
-  std::string table = fmt::format("{:<{}}  sessions  runs  last day    next lesson\n", "learner", width);
+  constexpr std::string_view kHead = "learner";
+  std::size_t width = kHead.size();
+  const auto name_of = [](const LearnerHistory& history) { return haptics::printable(history.learner.name); };
+  for (const LearnerHistory& history : learners) width = std::max(width, text_columns(name_of(history)));
+  const auto padded = [&](const std::string& text) { return text + std::string(width - text_columns(text), ' '); };
+  std::string table = padded(std::string(kHead)) + "  sessions  runs  last day    next lesson\n";
   for (const LearnerHistory& history : learners) {
     const Totals sum = totals(history);
-    table += fmt::format("{:<{}}  {:>8}  {:>4}  {:<10}  {}\n", haptics::printable(history.learner.name), width,
-                         sum.sessions, sum.runs, sum.last_day.empty() ? "-" : haptics::printable(sum.last_day),
+    table += fmt::format("{}  {:>8}  {:>4}  {:<10}  {}\n", padded(name_of(history)), sum.sessions, sum.runs,
+                         sum.last_day.empty() ? "-" : haptics::printable(sum.last_day),
                          format_next_lesson(history, lessons));
   }
   return table;

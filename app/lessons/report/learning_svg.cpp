@@ -19,7 +19,6 @@ constexpr base::Rect kPage{0.0, 0.0, 480.0, 280.0};
 constexpr base::Rect kBox{40.0, 28.0, 426.0, 206.0};
 
 constexpr const char* kBandColour = "#dce8f5";
-constexpr double kBandDeviations = 2.0;    // [1] half width of the confidence band (about 95 %) in standard deviations
 constexpr std::size_t kMinAxisTrials = 6;  // shortest axis, in number of trials
 constexpr int kCurveSteps = 160;
 

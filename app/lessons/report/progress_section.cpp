@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/base/html.h"
+#include "app/lessons/report/curve_band.h"
 #include "app/lessons/report/learning_svg.h"
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
@@ -19,27 +21,40 @@ namespace {
 constexpr std::size_t kMinRunsForCurve = 5;  // equal to kMinTrials in learning_curve.cpp
 constexpr std::size_t kMinRunsForChart = 3;
 
-std::string format_estimate(const Estimate& e) {
-  return format_number(e.value, 2) + " ± " + format_number(e.deviation, 2);
+constexpr double kSettled = 0.25;  // [1] distance from the level below which more practice changes little
+
+// Where more practice leads, as the end of a sentence about the typical grade `now`.
+std::string format_outlook(const LearningCurve& curve, double now) {
+  const bool is_level = std::abs(curve.level.value - now) < kSettled;
+  if (curve.at_bound)
+    return is_level ? std::string() : fmt::format(" and is still changing, towards {:.0f}", curve.level.value);
+  const auto grade = [](double value) { return std::clamp(value, kGrades.lowest, kGrades.highest); };
+  const double margin = kBandDeviations * curve.level.deviation;
+  return fmt::format(" and {} {:.1f} (most likely {:.1f} to {:.1f})", is_level ? "stays near" : "should settle near",
+                     grade(curve.level.value), grade(curve.level.value - margin), grade(curve.level.value + margin));
 }
 
-std::string format_level(const LearningCurve& curve) {
-  return curve.at_bound ? format_number(curve.level.value, 0) + " (fixed at its limit)" : format_estimate(curve.level);
+std::string describe_curve(const TaskProgress& task) {
+  const LearningCurve& curve = *task.curve;
+  const auto at = [&](std::size_t trial) {
+    return std::clamp(curve.at(static_cast<double>(trial)), kGrades.lowest, kGrades.highest);
+  };
+  const double first = at(0), now = at(task.trials.size() - 1);
+  return fmt::format("The typical grade {} from {:.1f} to {:.1f} in {} runs{}. Single runs are about {:.1f} off it.",
+                     now >= first ? "rose" : "fell", first, now, task.trials.size(), format_outlook(curve, now),
+                     curve.noise);
 }
 
 std::string describe_fit(const TaskProgress& task) {
-  if (task.curve) {
-    return fmt::format("A = {}, B = {}, τ = {} runs; grades scatter about the curve by {:.2f}.",
-                       format_level(*task.curve), format_estimate(task.curve->gain),
-                       format_estimate(task.curve->trials), task.curve->noise);
-  }
+  if (task.curve) return describe_curve(task);
   if (task.trials.size() < kMinRunsForCurve)
-    return fmt::format("No curve yet: {} graded runs needed, {} so far.", kMinRunsForCurve, task.trials.size());
+    return fmt::format("No trend yet: {} graded runs needed, {} so far.", kMinRunsForCurve, task.trials.size());
   const auto [lowest, highest] = std::minmax_element(task.trials.begin(), task.trials.end(),
                                                      [](const auto& a, const auto& b) { return a.grade < b.grade; });
   if (lowest->grade == highest->grade)
-    return fmt::format("No curve: all {} grades are {:.1f}.", task.trials.size(), highest->grade);
-  return fmt::format("No curve: these {} grades scatter too much to show learning.", task.trials.size());
+    return fmt::format("All {} grades are {:.1f}.", task.trials.size(), highest->grade);
+  return fmt::format("No clear trend: the {} grades vary between {:.1f} and {:.1f}.", task.trials.size(), lowest->grade,
+                     highest->grade);
 }
 
 std::string task_row(const TaskProgress& task, std::span<const GradedTrial> past, std::span<const Lesson> lessons) {
@@ -54,7 +69,7 @@ std::string task_row(const TaskProgress& task, std::span<const GradedTrial> past
   number(fmt::format("{:.1f}", task.trials.front().grade));
   number(fmt::format("{:.1f}", best->grade));
   number(fmt::format("{:.1f}", task.trials.back().grade));
-  number(fmt::format("{:.1f}", task_grade(past, task.task).value_or(0.0)));
+  number(fmt::format("{:.1f}", recent_results(past, task.task).value_or(RecentResults{}).grade));
   return row + "</tr>\n";
 }
 
@@ -64,7 +79,7 @@ std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const G
       "<table class=\"tasks\">\n<thead><tr><th>Task</th><th class=\"number\">Graded runs</th><th "
       "class=\"number\">Passed</th>"
       "<th class=\"number\">First</th><th class=\"number\">Best</th><th class=\"number\">Last</th>"
-      "<th class=\"number\">Mean of the last three</th></tr></thead>\n<tbody>\n";
+      "<th class=\"number\">Recent grade</th></tr></thead>\n<tbody>\n";
   for (const TaskProgress& task : tasks) table += task_row(task, past, lessons);
   return table + "</tbody></table>\n";
 }
@@ -110,14 +125,10 @@ std::string few_runs(const std::vector<TaskProgress>& tasks, std::span<const Les
 }
 
 constexpr const char* kHowToRead =
-    "Each dot is a graded run, hollow if not passed; guided runs are left out. A ring marks the first run of its "
-    "lesson "
-    "after a break of a day or more. The line is the fitted curve grade(n) = A + B exp(−n/τ), with n = 0 for the first "
-    "run: A is the level that practice leads to, B the distance of the first run from it (negative if below), and τ "
-    "the "
-    "number of runs until 37 % of that distance is left. The pale band contains the curve with about 95 % confidence; "
-    "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the fit would "
-    "put A beyond that range, A is fixed at the limit, and only B and τ are fitted.";
+    "Each dot is a graded run, hollow if not passed; guided and unfinished runs are left out. A ring marks the first "
+    "run "
+    "of its lesson after a break of a day or more. The line is the typical grade, which changes fast at first and then "
+    "ever more slowly; it lies in the pale band with about 95 % confidence.";
 
 constexpr double kWeekAfter = 6.0 * 24.0 * 3600.0;  // [s] a break at least this long counts as a week
 
@@ -180,6 +191,31 @@ std::string retention_part(const LearnerHistory& history, std::span<const Lesson
 }
 
 }  // namespace
+
+std::string standing_rows(const LearnerHistory& history, std::span<const TaskStanding> tasks,
+                          std::span<const Lesson> lessons, bool with_curve) {
+  const std::vector<TaskProgress> progress = task_progress(history);
+  std::string rows;
+  for (const TaskStanding& task : tasks) {
+    std::string name(to_string(task.standing)), kind = name, why = task.sentence;
+    std::replace(kind.begin(), kind.end(), ' ', '_');
+    for (const TaskProgress& each : progress) {
+      if (with_curve && each.task == task.task && each.curve) why += " " + describe_curve(each);
+    }
+    rows += fmt::format("<tr><td>{}</td><td class=\"standing {}\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                        base::html_text(task_title(lessons, task.task)), kind, name, base::html_text(why),
+                        base::html_text(task.advice));
+  }
+  return rows;
+}
+
+std::string standing_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  return section(
+      "standing", "What the learner can do",
+      fmt::format("<table class=\"standings\">\n<thead><tr><th>Task</th><th>Status</th><th>Why</th><th>Next</th>"
+                  "</tr></thead>\n<tbody>\n{}</tbody></table>\n",
+                  standing_rows(history, task_standings(history, lessons), lessons, false)));
+}
 
 std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<TaskProgress> tasks = task_progress(history);

@@ -36,10 +36,22 @@ th { vertical-align: bottom; }
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
 td.number, td.shift, td.day, td.bars { white-space: nowrap; }
 table.tasks, table.kept { width: auto; }
+table.class th, table.class td { padding-right: 1.4rem; }
+table.class td:first-child { white-space: nowrap; }
+table.class td:last-child { width: 45%; }
+.learner p.next { padding: 0.4rem 1.1rem; margin: 0.6rem 0; }
+table.standings { table-layout: fixed; }
+table.standings th:first-child, table.standings td:first-child { width: 19%; }
+table.standings th:nth-child(2), table.standings td:nth-child(2) { width: 9%; }
+table.standings th:last-child, table.standings td:last-child { width: 32%; }
+.can { color: #2e7d4f; font-weight: bold; }
+.nearly { color: #1f5fa8; font-weight: bold; }
+.not_yet { color: #c5303b; font-weight: bold; }
+.not_tried { color: #6b7785; }
 table.kept th, table.kept td, table.tasks th, table.tasks td { padding-right: 1.4rem; }
-table.weaknesses th, table.weaknesses td { padding-right: 1.4rem; }
-table.weaknesses th:first-child { width: 36%; }
-table.weaknesses td:last-child { white-space: nowrap; }
+table.weaknesses th, table.weaknesses td { padding-right: 1.2rem; }
+table.weaknesses th:first-child { width: 34%; }
+table.weaknesses th:last-child { width: 15%; }
 table.shifts { font-size: 0.85rem; }
 table.few th { font-weight: normal; color: #6b7785; white-space: nowrap; }
 table.few td { width: 100%; }
@@ -59,10 +71,13 @@ table.runs tr:target { background: #fdf3e1; }
 @media print {
   @page { margin: 14mm 12mm; }
   thead { display: table-header-group; }
+  p, li, td { orphans: 3; widows: 3; }
+  caption, thead, p.lead { break-inside: avoid; break-after: avoid; }
+  tbody tr:first-child, tbody tr:last-child, table + p.soft { break-before: avoid; }
   table, table.shifts, table.runs { font-size: 8pt; }
   td, th { padding: 0.25rem 0.5rem 0.25rem 0; }
   table.weaknesses th, table.weaknesses td { padding-right: 0.7rem; }
-  .recording, table.tasks, table.few, table.kept, table.shifts { break-inside: avoid; }
+  .learner, .recording, p.soft, table.tasks, table.few, table.kept, table.shifts { break-inside: avoid; }
   figcaption { font-size: 8pt; }
   h2 { margin-top: 1.2rem; padding-top: 0.6rem; }
   dl.totals, p.next { margin: 0.8rem 0; }
@@ -110,20 +125,25 @@ std::string run_link(std::int64_t run) {
   return fmt::format("<a href=\"#run-{0}\">Run {0}</a>", run);
 }
 
-std::string report_page(const LearnerHistory& history, const ShownShifts& shifts, std::span<const Lesson> lessons) {
-  const std::string name = base::html_text(history.learner.name);
-  std::string page = fmt::format(
+std::string page_begin(std::string_view title) {
+  return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: driving report</title>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
       "<style>{}{}</style>\n</head>\n<body>\n",
-      name, base::html_style(), kStyle);
-  page += head_section(history, lessons);
-  page += progress_section(history, lessons) + weakness_section(history) + shifts_section(shifts, lessons) +
-          runs_section(history, lessons);
-  page += fmt::format(
-      "<p class=\"soft\">{}. Dates and times are UTC. Grades range from 0 to 10; guided runs are not graded.</p>\n",
+      base::html_text(title), base::html_style(), kStyle);
+}
+
+std::string page_end() {
+  return fmt::format(
+      "<p class=\"soft\">{}. Dates and times are UTC. Grades range from 0 to 10; guided runs are not graded.</p>\n"
+      "</body>\n</html>\n",
       base::html_text(base::program_name()));
-  return page + "</body>\n</html>\n";
+}
+
+std::string report_page(const LearnerHistory& history, const ShownShifts& shifts, std::span<const Lesson> lessons) {
+  return page_begin(history.learner.name + ": driving report") + head_section(history, lessons) +
+         standing_section(history, lessons) + progress_section(history, lessons) + weakness_section(history) +
+         shifts_section(shifts, lessons) + runs_section(history, lessons) + page_end();
 }
 
 }  // namespace gearshift::lessons

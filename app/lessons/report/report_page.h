@@ -1,4 +1,4 @@
-// Renders a learner's history as one self-contained HTML page, for screen and print.
+// Renders histories as self-contained HTML pages, for screen and print: of a learner, and of all learners.
 #pragma once
 
 #include <optional>
@@ -26,5 +26,8 @@ ShownShifts show_shifts(const LearnerHistory& history, const std::filesystem::pa
 
 // lessons: the known lessons, in teaching order.
 std::string report_page(const LearnerHistory& history, const ShownShifts& shifts, std::span<const Lesson> lessons);
+
+// All learners: what each can do and what comes next, and how many can do each task.
+std::string class_page(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons);
 
 }  // namespace gearshift::lessons

@@ -10,9 +10,14 @@
 
 namespace gearshift::lessons {
 
-std::string title_from_key(std::string_view key) {
+std::string words_from_key(std::string_view key) {
   std::string words(key);
   std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string title_from_key(std::string_view key) {
+  std::string words = words_from_key(key);
   if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);
   return words;
 }

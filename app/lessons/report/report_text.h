@@ -10,6 +10,7 @@
 
 namespace gearshift::lessons {
 
+std::string words_from_key(std::string_view key);  // for example "moving off" for "moving_off"
 std::string title_from_key(std::string_view key);  // for example "Moving off" for "moving_off"
 
 // The lesson's title, or its key as text if the lesson is unknown.

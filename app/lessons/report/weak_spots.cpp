@@ -40,10 +40,10 @@ double per_ten(std::size_t count, std::size_t all) noexcept {
   return all == 0 ? 0.0 : 10.0 * static_cast<double>(count) / static_cast<double>(all);
 }
 
-std::vector<const LessonResult*> graded_results(const LearnerHistory& history) {
+std::vector<const LessonResult*> results_of(const LearnerHistory& history, const auto& counts) {
   std::vector<const LessonResult*> results;
   for (const RunRow& run : history.runs) {
-    if (is_graded(run.result)) results.push_back(&run.result);
+    if (counts(run.result)) results.push_back(&run.result);
   }
   return results;
 }
@@ -88,7 +88,8 @@ WeakSpot spot_of(ErrorKind kind, std::span<const LessonResult* const> results) {
     for (const DrivingError& error : result->errors) {
       if (error.kind != kind) continue;
       ++spot.by_severity[static_cast<std::size_t>(error.severity)], ++spot.count;
-      spot.points += error.points;
+      if (is_graded(*result)) spot.points += error.points;
+      if (is_graded(*result) && error.severity != Severity::note) ++spot.graded;
       if (!error.step.empty()) spot.newest_step = error;
     }
   }
@@ -109,7 +110,31 @@ void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
   if (sum.earlier + sum.recent > 0) spot.trend = trend_of(lessons);
 }
 
+// Counts the latest runs without the error. A lesson that never had it says nothing about it, and one whose own latest
+// run had it shows that it is still there.
+void count_clean_runs(WeakSpot& spot, std::span<const LessonResult* const> graded, const ByLesson& lessons) {
+  std::size_t with = 0, runs = 0;
+  for (const LessonResult* result : graded) {
+    const std::vector<const LessonResult*>& same = lessons.at(result->lesson);
+    const bool concerns =
+        std::any_of(same.begin(), same.end(), [&](const LessonResult* r) { return has(*r, spot.kind); });
+    if (!concerns) continue;
+    if (has(*same.back(), spot.kind)) return void(spot.clean = 0);
+    ++spot.clean;
+    if (!has(*result, spot.kind)) continue;
+    ++with, runs += spot.clean, spot.clean = 0;
+  }
+  if (with > 0 && clean_run_chance(with, runs, spot.clean) < kRare) spot.trend = Trend::gone;
+}
+
 }  // namespace
+
+double clean_run_chance(std::size_t with, std::size_t runs, std::size_t clean) noexcept {
+  double chance = 1.0;
+  for (std::size_t i = 0; i < clean; ++i)
+    chance *= static_cast<double>(runs - with + 1 + i) / static_cast<double>(runs + 2 + i);
+  return chance;
+}
 
 Trend trend_of(std::span<const LessonHalves> lessons) {
   if (lessons.empty()) return Trend::unknown;
@@ -129,17 +154,21 @@ Trend trend_of(std::span<const LessonHalves> lessons) {
 }
 
 Weaknesses weaknesses(const LearnerHistory& history) {
-  const std::vector<const LessonResult*> results = graded_results(history);
-  const ByLesson lessons = by_lesson(results);
+  const auto results =
+      results_of(history, [](const LessonResult& r) { return r.end != LessonEnd::running && r.is_complete; });
+  const auto graded = results_of(history, is_graded);
+  const ByLesson lessons = by_lesson(graded);
   Weaknesses found{shifts_of(results), {}};
   for (std::size_t i = 0; i < kErrorKindCount; ++i) {
     WeakSpot spot = spot_of(static_cast<ErrorKind>(i), results);
     if (spot.count == 0) continue;
     spot.per_ten = per_ten(spot.count - spot.by_severity[0], found.shifts);
     compare(spot, halves_of(spot.kind, lessons));
+    count_clean_runs(spot, graded, lessons);
     found.spots.push_back(spot);
   }
   std::stable_sort(found.spots.begin(), found.spots.end(), [](const WeakSpot& a, const WeakSpot& b) {
+    if ((a.trend == Trend::gone) != (b.trend == Trend::gone)) return b.trend == Trend::gone;
     return a.points != b.points ? a.points > b.points : a.count > b.count;
   });
   return found;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <span>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,18 +14,40 @@ namespace {
 
 constexpr double kMaxBarWidth = 7.0;  // [rem]
 
-const char* trend_label(Trend trend) {
-  switch (trend) {
+std::string clean_runs(const WeakSpot& spot) {
+  return fmt::format("none in the last {} runs", spot.clean);
+}
+
+std::string trend_label(const WeakSpot& spot) {
+  switch (spot.trend) {
+    case Trend::gone:
+      return "<span class=\"passed\">gone: " + clean_runs(spot) + "</span>";
     case Trend::falling:
       return "<span class=\"passed\">↓ falling</span>";
     case Trend::rising:
       return "<span class=\"failed\">↑ rising</span>";
     case Trend::unclear:
-      return "no clear change";
+      return spot.clean > 1 ? clean_runs(spot) : "no clear change";
     case Trend::unknown:
       break;
   }
   return "–";
+}
+
+// Names the errors that became rarer; empty if there are none.
+std::string improvements(std::span<const WeakSpot> spots) {
+  std::string list;
+  for (const WeakSpot& spot : spots) {
+    std::string change;
+    if (spot.trend == Trend::gone)
+      change = fmt::format("{} earlier, {}", spot.graded, clean_runs(spot));
+    else if (spot.trend == Trend::falling)
+      change = fmt::format("in {:.1f} of ten runs earlier, in {:.1f} lately", spot.earlier, spot.recent);
+    else
+      continue;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", words_from_key(to_string(spot.kind)), change);
+  }
+  return list.empty() ? list : fmt::format("<p class=\"lead\">Improved: {}.</p>\n", list);
 }
 
 // Draws two bars on one scale: the earlier rate on top, the recent rate below. Draws a dash, not 0, if no runs were
@@ -56,28 +80,35 @@ std::string spot_row(const WeakSpot& spot, double max_rate) {
     row += fmt::format("<td class=\"number\">{}</td>", count == 0 ? std::string() : std::to_string(count));
   }
   row += fmt::format("<td class=\"number\">{:.1f}</td><td class=\"number\">{:.1f}</td>", spot.points, spot.per_ten);
-  return row +
-         fmt::format("<td class=\"bars\">{}</td><td>{}</td></tr>\n", bars(spot, max_rate), trend_label(spot.trend));
+  return row + fmt::format("<td class=\"bars\">{}</td><td>{}</td></tr>\n", bars(spot, max_rate), trend_label(spot));
+}
+
+std::string how_to_read(std::size_t shifts) {
+  return fmt::format(
+      "<p class=\"soft\">Driving errors in all runs ({} shifts), those with guidance and those given up included; "
+      "points "
+      "and trends come from graded runs. The bars show in how many of ten runs the error occurred, in the first and "
+      "the "
+      "second half of each lesson's runs; with an odd number of runs, the middle one is left out. A trend is named if "
+      "chance alone would cause it less than one time in twenty. Notes are counted only in their own column.</p>\n",
+      shifts);
 }
 
 }  // namespace
 
 std::string weakness_section(const LearnerHistory& history) {
   const Weaknesses found = weaknesses(history);
-  if (found.spots.empty()) return section("weaknesses", "Weaknesses", paragraph("No driving errors in graded runs."));
+  if (found.spots.empty()) return section("weaknesses", "Weaknesses", paragraph("No driving errors."));
   double max_rate = 0.0;
   for (const WeakSpot& spot : found.spots) max_rate = std::max({max_rate, spot.earlier, spot.recent});
-  std::string table = fmt::format(
-      "<table class=\"weaknesses\">\n<caption>Driving errors in graded runs ({} shifts). The bars \"earlier\" and "
-      "\"recently\" show in how many of ten runs the error occurred, in the first and the second half of each lesson's "
-      "runs; with an odd number of runs, the middle one is left out. A trend is shown as falling or rising if chance "
-      "alone would cause it less than one time in twenty. Notes are counted only in their own column.</caption>\n"
-      "<thead><tr><th>Error</th><th class=\"number\">Very severe</th><th class=\"number\">Severe</th>"
+  std::string table =
+      "<table class=\"weaknesses\">\n<thead><tr><th>Error</th><th class=\"number\">Very severe</th><th "
+      "class=\"number\">Severe</th>"
       "<th class=\"number\">Minor</th><th class=\"number\">Notes</th><th class=\"number\">Points lost</th>"
-      "<th class=\"number\">Per 10 shifts</th><th>Earlier, recently</th><th>Trend</th></tr></thead>\n<tbody>\n",
-      found.shifts);
+      "<th class=\"number\">Per 10 shifts</th><th>Earlier, recently</th><th>Trend</th></tr></thead>\n<tbody>\n";
   for (const WeakSpot& spot : found.spots) table += spot_row(spot, max_rate);
-  return section("weaknesses", "Weaknesses", table + "</tbody></table>\n");
+  return section("weaknesses", "Weaknesses",
+                 improvements(found.spots) + table + "</tbody></table>\n" + how_to_read(found.shifts));
 }
 
 }  // namespace gearshift::lessons

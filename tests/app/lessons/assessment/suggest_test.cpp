@@ -1,5 +1,5 @@
-// Tests which lesson is suggested next: a lesson whose results got worse, else a new lesson, else the lesson with the
-// lowest grades.
+// Tests which lesson is suggested next: one never passed, else one that became weak, else one passed only once, else the
+// lesson with the lowest grades.
 #include "app/lessons/assessment/suggest.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,19 @@ GradedTrial result(const char* lesson, double grade) {
 }
 
 std::string next(const std::vector<GradedTrial>& past) {
-  return suggest_lesson(three_lessons(), past)->lesson;
+  return suggest_lesson(three_lessons(), past, {})->lesson;
+}
+
+// All three lessons were passed twice, in turns.
+std::vector<GradedTrial> passed_all(double grade) {
+  std::vector<GradedTrial> past;
+  for (int i = 0; i < 6; ++i)
+    past.push_back(result(three_lessons()[static_cast<std::size_t>(i % 3)].key.c_str(), grade));
+  return past;
+}
+
+void add(std::vector<GradedTrial>& past, const char* lesson, const std::vector<double>& grades) {
+  for (const double grade : grades) past.push_back(result(lesson, grade));
 }
 
 }  // namespace
@@ -37,60 +49,90 @@ TEST_CASE("a beginner starts with the first lesson, and continues with the first
   CHECK(next({result("bite", 9.0)}) == "start");
 }
 
-TEST_CASE("lessons with worse results come before new ones, the worst first") {
-  const std::vector<GradedTrial> past{result("start", 8.0), result("bite", 9.0), result("bite", 2.0),
-                                      result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
-  CHECK(next(past) == "bite");  // average of the last three grades: "bite" 3.0, "start" 5.5 (only two grades)
-  const auto suggestion = suggest_lesson(three_lessons(), past);
-  CHECK(suggestion->why == "Bite point needs practice: 3 of the last 3 attempts failed (average grade 3.0).");
+TEST_CASE("a lesson never passed comes before one that became weak, however often it was tried") {
+  std::vector<GradedTrial> past{result("away", 9.0)};
+  add(past, "away", {1.0, 1.0, 1.0});
+  CHECK(next(past) == "start");
+  add(past, "start", {8.0});
+  for (int run = 0; run < 6; ++run) {
+    CHECK(next(past) == "bite");
+    add(past, "bite", {0.0});
+  }
+  CHECK(suggest_lesson(three_lessons(), past, {})->why == "You haven't passed Bite point yet (6 failed).");
+  const std::vector<UngradedTrial> others{{"bite", false, true},
+                                          {"bite", true, true},
+                                          {"bite", true, false},
+                                          {"bite", false, false},
+                                          {"away", true, false}};
+  CHECK(suggest_lesson(three_lessons(), past, others)->why ==
+        "You haven't passed Bite point yet (6 failed, 1 guided, 2 given up, 1 cut off).");
+  CHECK(suggest_lesson(three_lessons(), {}, {})->why == "You haven't passed Start yet.");
 }
 
-TEST_CASE("worse means recently failed, at any grade: one error can fail a lesson at 9.5") {
-  const GradedTrial failed{"away", "away", 9.5, false}, passed{"away", "away", 9.5, true};
-  std::vector<GradedTrial> past{result("start", 8.0), passed, result("start", 6.0)};
+TEST_CASE(
+    "of lessons that became weak, the one with the larger part of failed runs comes first, then the lower grade") {
+  std::vector<GradedTrial> past = passed_all(8.0);
+  add(past, "start", {2.0, 2.0});
+  add(past, "bite", {3.0, 3.0, 3.0});
   CHECK(next(past) == "bite");
-  past.push_back(failed);
-  CHECK(next(past) == "away");
-  past.push_back(passed);
-  CHECK(next(past) == "bite");  // "away" failed in only one of its last three runs, which is tolerated
-  past.push_back(failed);
-  CHECK(next(past) == "away");
-}
-
-TEST_CASE("more failures are worse; if equal, the lower grade is worse") {
-  const auto runs = [](const char* lesson, const std::vector<double>& grades) {
-    std::vector<GradedTrial> list{{lesson, lesson, 10.0, true}};
-    for (const double grade : grades) list.push_back({lesson, lesson, grade, false});
-    return list;
-  };
-  std::vector<GradedTrial> past = runs("start", {0.0}), more = runs("bite", {9.0, 9.0, 9.0});
-  past.insert(past.end(), more.begin(), more.end());
-  CHECK(next(past) == "bite");
-  past = runs("start", {8.0, 8.0, 8.0});
-  past.insert(past.end(), more.begin(), more.end());
+  CHECK(suggest_lesson(three_lessons(), past, {})->why ==
+        "Bite point needs practice: 3 of the last 3 attempts failed, the latest one too (recent grade 3.0).");
+  add(past, "start", {2.0});
   CHECK(next(past) == "start");
 }
 
-TEST_CASE("a lesson never passed in three runs also counts as worse; with one or two runs it is still new") {
-  std::vector<GradedTrial> past{result("start", 8.0)};
-  for (int run = 1; run <= 6; ++run) {
-    past.push_back(result("away", 0.0));
-    CHECK(next(past) == (run < 3 ? "bite" : "away"));
-  }
+TEST_CASE("weak means that the newest run failed and at least half of the last three, at any grade") {
+  const auto fails = [](std::vector<bool> passed) {  // newest last
+    std::vector<GradedTrial> past = passed_all(8.0);
+    for (const bool pass : passed) past.push_back({"away", "away", 9.5, pass});
+    return suggest_lesson(three_lessons(), past, {})->why.starts_with("Moving off needs practice");
+  };
+  CHECK_FALSE(fails({true, false}));  // 8.0 passed, 9.5 passed, 9.5 failed
+  CHECK(fails({false, false}));
+  CHECK(fails({false, true, false}));
+  CHECK_FALSE(fails({false, false, true}));
+  CHECK_FALSE(fails({false, true, true}));
+  CHECK(fails({false, false, false}));
 }
 
-TEST_CASE("with all lessons passed the weakest is suggested") {
-  CHECK(next({result("start", 9.0), result("bite", 7.0), result("away", 8.0)}) == "bite");
+TEST_CASE("a lesson passed once is repeated on another day or after another lesson, before the weakest") {
+  const auto passed = [](const char* lesson, const char* day) {
+    return GradedTrial{lesson, lesson, 9.0, true, 0, std::string(day) + "T10:00:00Z"};
+  };
+  std::vector<GradedTrial> past{passed("start", "2026-01-01"), passed("bite", "2026-01-01"),
+                                passed("start", "2026-01-01"), passed("away", "2026-01-01")};
+  CHECK(was_confirmed(past, "start"));  // after "bite"
+  CHECK_FALSE(was_confirmed(past, "bite"));
+  CHECK(suggest_lesson(three_lessons(), past, {})->why == "You have passed Bite point once; pass it again to be sure.");
+  past.push_back(passed("bite", "2026-01-01"));
+  past.push_back(passed("away", "2026-01-01"));
+  CHECK(was_confirmed(past, "bite"));
+  const std::vector<GradedTrial> same{passed("away", "2026-01-01"), passed("away", "2026-01-01")},
+      later{passed("away", "2026-01-01"), passed("away", "2026-01-02")};
+  CHECK_FALSE(was_confirmed(same, "away"));
+  CHECK(was_confirmed(later, "away"));
+  CHECK_FALSE(was_confirmed({}, "away"));
 }
 
-TEST_CASE("only the last three results of a task count") {
+TEST_CASE("with all lessons passed twice the weakest is suggested") {
+  std::vector<GradedTrial> past = passed_all(9.0);
+  add(past, "bite", {7.0, 7.0});
+  CHECK(next(past) == "bite");
+  // (3 x 7 + 2 x 7 + 9) / 6
+  CHECK(suggest_lesson(three_lessons(), past, {})->why ==
+        "You have passed all lessons twice; Bite point is the weakest, with a recent grade of 7.3.");
+}
+
+TEST_CASE("of a task's last three results the newest weighs most") {
   const std::vector<GradedTrial> past{result("start", 0.0), result("start", 6.0), result("bite", 1.0),
-                                      result("start", 7.0), result("start", 8.0)};
-  CHECK(task_grade(past, "start") == doctest::Approx(7.0));
-  CHECK(task_grade(past, "bite") == doctest::Approx(1.0));
-  CHECK_FALSE(task_grade(past, "away").has_value());
+                                      result("start", 7.0), result("start", 9.0)};
+  CHECK(recent_results(past, "start")->grade == doctest::Approx((3 * 9.0 + 2 * 7.0 + 6.0) / 6.0));
+  CHECK(recent_results(past, "bite")->grade == doctest::Approx(1.0));
+  CHECK(recent_results(std::vector{result("away", 4.0), result("away", 9.0)}, "away")->grade ==
+        doctest::Approx((3 * 9.0 + 2 * 4.0) / 5.0));
+  CHECK_FALSE(recent_results(past, "away").has_value());
 }
 
 TEST_CASE("without lessons there is no suggestion") {
-  CHECK_FALSE(suggest_lesson({}, {}).has_value());
+  CHECK_FALSE(suggest_lesson({}, {}, {}).has_value());
 }

@@ -2,6 +2,7 @@
 #include "app/lessons/report/weak_spots.h"
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -62,7 +63,7 @@ TEST_CASE("a lesson with an error in each run, followed by a lesson without that
   const Weaknesses found = weaknesses(history);
   REQUIRE(found.spots.size() == 2);
   const WeakSpot& stall = found.spots[0].kind == ErrorKind::stall ? found.spots[0] : found.spots[1];
-  CHECK(stall.trend == Trend::falling);
+  CHECK(stall.trend == Trend::gone);
   CHECK(stall.per_ten == 10.0 * 6 / 48);
 }
 
@@ -78,24 +79,28 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   error(0, ErrorKind::grind, Severity::minor, 0.5);
   error(1, ErrorKind::grind, Severity::note, 0.0);
   error(3, ErrorKind::grind, Severity::very_severe, 4.0);
-  history.runs.push_back(run_with(5, 7, 0.0));  // a guided run: neither its shifts nor its errors count
+  history.runs.push_back(run_with(5, 10, 0.0));  // a guided run: its shifts and errors count, its points do not
   history.runs.back().result.guided = true;
-  error(4, ErrorKind::stall, Severity::severe, 0.0);
+  error(4, ErrorKind::stall, Severity::severe, 2.0);
 
   const Weaknesses found = weaknesses(history);
-  CHECK(found.shifts == 20);
+  CHECK(found.shifts == 30);
   REQUIRE(found.spots.size() == 2);
   const WeakSpot& grind = found.spots[0];
   CHECK(grind.kind == ErrorKind::grind);
   CHECK(grind.by_severity == std::array<std::size_t, 4>{1, 1, 0, 1});
   CHECK(grind.count == 3);
   CHECK(grind.points == 4.5);
-  CHECK(grind.per_ten == 1.0);  // two errors in 20 shifts; the note does not count
+  CHECK(grind.per_ten == 20.0 / 30.0);  // two errors in 30 shifts; the note does not count
+  CHECK(grind.graded == 2);
+  CHECK(grind.clean == 0);
   CHECK(grind.earlier == 5.0);  // one of the two earlier runs had the error; the rate is per ten runs
   CHECK(grind.recent == 5.0);
   const WeakSpot& stall = found.spots[1];
-  CHECK(stall.count == 1);
+  CHECK(stall.count == 2);
   CHECK(stall.points == 2.0);
+  CHECK(stall.graded == 1);
+  CHECK(stall.clean == 3);
   CHECK(stall.recent == 0.0);
 }
 
@@ -111,6 +116,58 @@ TEST_CASE("errors of runs in neither half are not compared: they must not be sho
   history.runs[2].result.errors = history.runs[1].result.errors;
   CHECK(weaknesses(history).spots[0].trend == Trend::unclear);
   CHECK(weakness_section(history).find("0.0<br>") != std::string::npos);
+}
+
+// Laplace's rule of succession: after n runs that all had the error, k runs without it have the chance 1/C(n + k + 1, k).
+TEST_CASE("the chance of runs without an error, if nothing has changed") {
+  CHECK(clean_run_chance(1, 1, 1) == doctest::Approx(1.0 / 3.0));   // C(3, 1) = 3
+  CHECK(clean_run_chance(2, 2, 4) == doctest::Approx(1.0 / 35.0));  // C(7, 4) = 35
+  CHECK(clean_run_chance(8, 8, 2) == doctest::Approx(1.0 / 55.0));  // C(11, 2) = 55
+  CHECK(clean_run_chance(1, 2, 1) == doctest::Approx(1.0 / 2.0));   // (2 - 1 + 1) / (2 + 2)
+  CHECK(clean_run_chance(3, 9, 0) == 1.0);
+}
+
+TEST_CASE("an error is not gone while the latest run of one of its lessons still has it") {
+  LearnerHistory history;
+  const auto drive = [&](const char* lesson, bool stalls) {
+    history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 0, 6.0));
+    LessonResult& result = history.runs.back().result;
+    result.lesson = lesson;
+    if (stalls) result.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, -1)};
+  };
+  drive("start", true);
+  for (int i = 0; i < 3; ++i) drive("hill_start", true);
+  for (int i = 0; i < 8; ++i) drive("start", false);
+  CHECK(weaknesses(history).spots[0].trend != Trend::gone);
+  CHECK(weaknesses(history).spots[0].clean == 0);
+  for (int i = 0; i < 2; ++i) drive("hill_start", false);
+  CHECK(weaknesses(history).spots[0].trend == Trend::gone);
+  CHECK(weaknesses(history).spots[0].clean == 10);
+}
+
+// Control: histories in which every run has the error with the same probability. The share of those called gone must
+// stay what weak_spots.h states.
+TEST_CASE("in histories without any change, at most 12 % of the errors are called gone") {
+  std::mt19937 random(7);
+  for (const int runs : {6, 10, 20, 40}) {
+    for (const double rate : {0.05, 0.1, 0.3, 0.5, 0.9}) {
+      int gone = 0;
+      constexpr int kHistories = 400;
+      for (int n = 0; n < kHistories; ++n) {
+        LearnerHistory history;
+        for (int i = 0; i < runs; ++i) {
+          history.runs.push_back(run_with(i + 1, 0, 6.0));
+          if (std::bernoulli_distribution(rate)(random))
+            history.runs.back().result.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, -1)};
+        }
+        const Weaknesses found = weaknesses(history);
+        gone += !found.spots.empty() && found.spots[0].trend == Trend::gone ? 1 : 0;
+      }
+      CAPTURE(runs);
+      CAPTURE(rate);
+      CHECK(gone <= 0.12 * kHistories + 3.0 * std::sqrt(0.12 * 0.88 * kHistories));  // and three standard deviations
+    }
+  }
 }
 
 TEST_CASE("without runs there are no weaknesses; without shifts an error has no rate") {
