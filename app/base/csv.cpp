@@ -2,8 +2,9 @@
 
 namespace gearshift::base {
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+std::string csv_field(std::string_view text, char separator) {
+  const char special[] = {separator, '"', '\r', '\n', '\0'};
+  if (text.find_first_of(special) == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
@@ -13,9 +14,9 @@ std::string csv_field(std::string_view text) {
 }
 
 CsvTable& CsvTable::text(std::string_view field) {
-  if (!first_) text_ += ',';
+  if (!first_) text_ += format_.separator;
   first_ = false;
-  text_ += csv_field(field);
+  text_ += csv_field(field, format_.separator);
   return *this;
 }
 

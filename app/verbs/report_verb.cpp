@@ -1,11 +1,12 @@
-// gearshift report: learners' results as a table, a page or CSV. Also edits comments, sets the next lesson and deletes
-// learners.
+// gearshift report: learners' results as a table, a page or CSV. Also edits comments, sets the next lesson, renames and
+// deletes learners.
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +29,7 @@
 #include "app/lessons/report/report_files.h"
 #include "app/lessons/report/report_page.h"
 #include "app/verbs/distinct_outputs.h"
+#include "app/verbs/lesson_options.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
@@ -37,34 +39,41 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReportHelp =
-    "Show the results of all learners as a table, or the results of one learner as a table of runs, a web page or CSV "
-    "files.";
+    "Show the results of all learners, or of one learner, as a table, a web page or CSV files.";
 constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
     "  gearshift report --learner Ada                        Ada's runs\n"
+    "  gearshift report --out class --csv                    all learners: class/index.html, standings.csv\n"
     "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, errors.csv\n"
+    "  gearshift report --learner Ada --out ada --csv --separator semicolon    for a spreadsheet with decimal commas\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
     "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3 is the number of the comment in the table of "
     "runs\n"
     "  gearshift report --learner Ada --delete-comment 3\n"
     "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" restores the "
     "suggestion\n"
+    "  gearshift report --learner Ada --rename \"Ada Lovelace\"\n"
     "  gearshift report --learner Ada --delete               permanently deletes Ada's results and recordings\n";
 
-constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kErrors = "errors.csv";
+constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kErrors = "errors.csv",
+                     *kStandings = "standings.csv";
+
+const std::map<std::string, char> kSeparators{{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}};
 
 using NumberedText = std::pair<std::int64_t, std::string>;
 
 struct ReportArguments {
-  std::string learner, database, out, by, next;
+  std::string learner, database, out, by, next, name;
+  std::string separator = "comma", decimal;     // decimal: empty, "point" or "comma"
   std::optional<NumberedText> comment, edit;    // `comment`: run number, text; `edit`: comment number, new text
   std::optional<std::int64_t> deleted_comment;  // number of the comment to delete
   bool csv = false, sets_next = false, deletes_learner = false, yes = false;
 };
 
 bool has_instructor_options(const ReportArguments& arguments) {
-  return arguments.comment || arguments.edit || arguments.deleted_comment || arguments.sets_next;
+  return arguments.comment || arguments.edit || arguments.deleted_comment || arguments.sets_next ||
+         !arguments.name.empty();
 }
 
 fs::path history_file(const ReportArguments& arguments) {
@@ -86,16 +95,35 @@ lessons::LearnerRow known_learner(lessons::History& history, const std::string& 
       fmt::format("no learner named \"{}\"; known learners: {}", haptics::printable(name), known_names(history)));
 }
 
-int list_learners(lessons::History& history) {
+// Where a list separator is a semicolon, the decimal sign is a comma, except in a few locales (Switzerland).
+base::CsvFormat csv_format(const ReportArguments& arguments) {
+  const bool has_comma = arguments.decimal.empty() ? arguments.separator == "semicolon" : arguments.decimal == "comma";
+  return {kSeparators.at(arguments.separator), has_comma, true};
+}
+
+void write_files(const ReportArguments& arguments, const std::vector<lessons::ReportFile>& files) {
+  base::make_folder(arguments.out);
+  lessons::write_report_files(arguments.out, files,
+                              [](const fs::path& file) { base::print_out("{}\n", file.string()); });
+}
+
+int report_class(const ReportArguments& arguments, lessons::History& history) {
   std::vector<lessons::LearnerHistory> all;
   for (const lessons::LearnerRow& row : history.learners()) all.push_back(lessons::read_learner(history, row));
-  base::print_out("{}", lessons::learner_table(all, lessons::shipped_lessons()));
+  const std::vector<lessons::Lesson> lessons = lessons::shipped_lessons();
+  if (arguments.out.empty()) {
+    base::print_out("{}", lessons::learner_table(all, lessons));
+    return 0;
+  }
+  std::vector<lessons::ReportFile> files{{kPage, lessons::class_page(all, lessons)}};
+  if (arguments.csv) files.push_back({kStandings, lessons::standings_csv(all, lessons, csv_format(arguments))});
+  write_files(arguments, files);
   return 0;
 }
 
 void check_out(const ReportArguments& arguments, const fs::path& history) {
   if (arguments.out.empty()) return;
-  for (const char* name : {kPage, kRuns, kShifts, kErrors})
+  for (const char* name : {kPage, kRuns, kShifts, kErrors, kStandings})
     check_distinct_outputs("--out", "the report and the history", fs::path(arguments.out) / name, history);
 }
 
@@ -105,13 +133,20 @@ void write_report(const ReportArguments& arguments, lessons::History& history, c
       {kPage,
        lessons::report_page(all, lessons::show_shifts(all, history.file().parent_path()), lessons::shipped_lessons())}};
   if (arguments.csv) {
-    files.push_back({kRuns, lessons::runs_csv(all)});
-    files.push_back({kShifts, lessons::shifts_csv(all)});
-    files.push_back({kErrors, lessons::errors_csv(all)});
+    const base::CsvFormat format = csv_format(arguments);
+    files.push_back({kRuns, lessons::runs_csv(all, format)});
+    files.push_back({kShifts, lessons::shifts_csv(all, format)});
+    files.push_back({kErrors, lessons::errors_csv(all, format)});
   }
-  base::make_folder(arguments.out);
-  lessons::write_report_files(arguments.out, files,
-                              [](const fs::path& file) { base::print_out("{}\n", file.string()); });
+  write_files(arguments, files);
+}
+
+void rename(const std::string& name, lessons::History& history, lessons::LearnerRow& learner) {
+  if (!history.rename_learner(learner.id, name))
+    throw std::runtime_error(fmt::format("{} is another learner; add something that tells them apart",
+                                         haptics::printable(history.find_learner(name).value_or(learner).name)));
+  const std::string before = std::exchange(learner.name, lessons::stored_name(name));
+  base::print_out("{} is now called {}\n", haptics::printable(before), haptics::printable(learner.name));
 }
 
 // Sets the learner's next lesson. `lesson` is the key of a shipped lesson; if empty, the suggested lesson comes next.
@@ -130,7 +165,8 @@ void set_next(const std::string& lesson, lessons::History& history, const lesson
 }
 
 void apply_instructor_options(const ReportArguments& arguments, lessons::History& history,
-                              const lessons::LearnerRow& learner) {
+                              lessons::LearnerRow& learner) {
+  if (!arguments.name.empty()) rename(arguments.name, history, learner);
   if (arguments.comment) {
     const auto& [run, text] = *arguments.comment;
     const std::int64_t number = lessons::comment_on_run(history, learner, run, arguments.by, text);
@@ -174,7 +210,7 @@ void confirm(const ReportArguments& arguments, const lessons::LearnerRow& learne
                              haptics::printable(learner.name)));
   std::string again;
   const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
-  if (again == learner.name) return;
+  if (lessons::stored_name(again) == learner.name) return;
   const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // in a terminal, Enter has ended the line
   if (is_line_open) base::print_to(stderr, "\n");
   throw std::runtime_error(fmt::format("{} was not deleted: {}", haptics::printable(learner.name),
@@ -207,7 +243,9 @@ int erase_learner(const ReportArguments& arguments, lessons::History& history, c
 
 std::unique_ptr<lessons::History> try_open_history(const fs::path& file) {
   try {
-    return std::make_unique<lessons::History>(file);
+    auto history = std::make_unique<lessons::History>(file);
+    if (!history->upgrade_note().empty()) base::print_message("{}", haptics::printable(history->upgrade_note()));
+    return history;
   } catch (const lessons::HistoryFull&) {
     return nullptr;
   }
@@ -234,7 +272,7 @@ int delete_history(ReportArguments arguments, const fs::path& file) {
 }
 
 int report_learner(const ReportArguments& arguments, lessons::History& history) {
-  const lessons::LearnerRow learner = known_learner(history, arguments.learner);
+  lessons::LearnerRow learner = known_learner(history, arguments.learner);
   apply_instructor_options(arguments, history, learner);
   if (!arguments.out.empty()) write_report(arguments, history, learner);
   if (arguments.out.empty() && !has_instructor_options(arguments))
@@ -258,7 +296,8 @@ int run_report(const ReportArguments& arguments) {
   const bool writes = has_instructor_options(arguments);
   lessons::History history(file, lessons::system_seconds, lessons::kHistoryLockTimeout,
                            writes ? lessons::HistoryUse::write : lessons::HistoryUse::read);
-  if (arguments.learner.empty()) return list_learners(history);
+  if (!history.upgrade_note().empty()) base::print_message("{}", haptics::printable(history.upgrade_note()));
+  if (arguments.learner.empty()) return report_class(arguments, history);
   return report_learner(arguments, history);
 }
 
@@ -287,11 +326,20 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--database", arguments->database, "history file to use instead of your own")
       ->type_name("FILE")
       ->check(not_empty);
-  CLI::Option* out = verb->add_option("--out", arguments->out, "write the page to this folder")
-                         ->type_name("FOLDER")
-                         ->check(not_empty)
-                         ->needs(learner);
-  verb->add_flag("--csv", arguments->csv, "also write runs, shifts and driving errors as CSV")->needs(out);
+  CLI::Option* out =
+      verb->add_option("--out", arguments->out, "write the page to this folder")->type_name("FOLDER")->check(not_empty);
+  CLI::Option* csv =
+      verb->add_flag("--csv", arguments->csv, "also write CSV files: of a learner, runs, shifts and driving errors")
+          ->needs(out);
+  verb->add_option("--separator", arguments->separator, "between the fields of CSV files: comma, semicolon or tab")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(kSeparators).description(""))
+      ->needs(csv);
+  verb->add_option("--decimal", arguments->decimal,
+                   "decimal sign in CSV files: point or comma (default: comma with --separator semicolon)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"point", "comma"}).description(""))
+      ->needs(csv);
   CLI::Option* comment = verb->add_option("--comment", arguments->comment, "add a comment to a run")
                              ->type_name("RUN TEXT")
                              ->needs(learner);
@@ -311,6 +359,9 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
       verb->add_option("--next", arguments->next, "set the next lesson; \"\" returns to the suggested lesson")
           ->type_name("LESSON")
           ->needs(learner);
+  CLI::Option* renames =
+      verb->add_option("--rename", arguments->name, "give the learner another name")->type_name("NAME")->needs(learner);
+  renames->check(validate_learner_name);
   CLI::Option* erases =
       verb->add_flag("--delete", arguments->deletes_learner, "permanently delete this learner's results and recordings")
           ->needs(learner)
@@ -318,7 +369,8 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
           ->excludes(comment)
           ->excludes(edit)
           ->excludes(deleted_comment)
-          ->excludes(next);
+          ->excludes(next)
+          ->excludes(renames);
   verb->add_flag("--yes", arguments->yes, "delete without asking for confirmation")->needs(erases);
   verb->callback([=, &action] {
     check_comment("--comment", arguments->comment);

@@ -50,12 +50,37 @@ check "the page is complete" grep -q "</html>" "$page"
 check "the name is text" grep -qF "<h1>Ada &lt;i&gt;Löwe&lt;/i&gt;</h1>" "$page"
 check "the comment is shown with the grade" grep -qF "Calmer, &quot;much&quot; &lt;calmer&gt;" "$page"
 check "the next lesson" grep -qF "Next lesson: <strong>Hill start</strong>, chosen by the instructor." "$page"
-check "a curve was fitted" grep -q "A = 9\.0. ± " "$page"
+check "a curve was fitted" grep -q "The typical grade rose from 2\.9 to 8\.9 in 12 runs and stays near 9\.0" "$page"
 check "force and path of recorded shifts" test "$(grep -c 'class="path"' "$page")" -eq 6
 check "nothing runs and nothing is fetched" test "$(grep -cE '<script|src=|https?://[^w]' "$page")" -eq 0
 check "the tables have 12 runs, 36 shifts, 12 driving errors" \
   test "$(cat "a folder/ä/"{runs,shifts,errors}.csv | grep -c $'\r$')" -eq $((13 + 37 + 13))
 check "a comment in the table is quoted" grep -qF '""much"" <calmer>' "a folder/ä/runs.csv"
+mark=$(printf '\357\273\277')
+check "a spreadsheet sees that the tables are UTF-8" test "$(head -c 3 "a folder/ä/runs.csv")" = "$mark"
+check "tables for a spreadsheet with decimal commas" report --learner "$ada" --out comma --csv --separator semicolon
+check "with semicolons" test "$(head -n 1 comma/runs.csv | head -c 23)" = "${mark}run;session;learner;"
+check "and decimal commas" grep -q ";60;[0-9],[05];" comma/runs.csv
+check "or points" report --learner "$ada" --out comma --csv --separator semicolon --decimal point
+check "as in Switzerland" grep -q ";60;[0-9].[05];" comma/runs.csv
+check "or tabs" report --learner "$ada" --out comma --csv --separator tab
+check "and points" grep -qP "\t60\t[0-9]\.5\t" comma/runs.csv
+
+check "the class" report --out class --csv
+check "has a page" grep -q "</html>" class/index.html
+check "with each learner" grep -q 'href="#learner-2">Bob</a>' class/index.html
+check "with a sentence on a task" grep -q "Passed 10 times, but not yet again on another day" class/index.html
+check "and a table, got: $(wc -l <class/standings.csv)" grep -q "^Bob,start_stop,not tried,," class/standings.csv
+
+decomposed="Ada <i>Lo\xcc\x88we</i>"
+check "another form of the name" report --learner "$(printf "%b" "$decomposed")"
+check "is the same learner" test "$(grep -c up_through_the_gears out)" -eq 12
+check "in any case" report --learner "ada <i>löwe</i>"
+check "a learner is renamed" report --learner Bob --rename "Bob  Li"
+check "and that is reported" says "Bob is now called Bob Li"
+refuse 1 "Ada <i>Löwe</i> is another learner; add something that tells them apart" --learner "Bob Li" --rename "$ada"
+refuse 2 "--rename: a learner's name must not contain control characters" --learner "Bob Li" --rename $'a\nb'
+check "and back" report --learner "bob li" --rename Bob
 cp "$page" first.html
 report --learner "$ada" --out "a folder/ä"
 check "the same history, the same page" cmp -s first.html "$page"
@@ -77,7 +102,8 @@ check "no report over its history" cmp -s data/gearshift/history.db "a folder/ru
 rm "a folder/runs.csv"
 mkdir folder.db
 refuse 1 "this is a folder" --database folder.db
-refuse 2 "--learner" --out t
+refuse 2 "--csv" --separator tab
+refuse 2 "--separator" --out t --csv --separator pipe
 refuse 2 "--learner: must not be empty" --learner "" --delete --yes
 refuse 2 "--out: must not be empty" --learner "$ada" --out ""
 refuse 2 "--comment" --learner "$ada" --comment 1 "" --by Bo

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "app/base/csv.h"
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
+#include "app/lessons/report/standing.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -55,8 +55,8 @@ void add_fields(base::CsvTable& table, const Record& record) {
 
 }  // namespace
 
-std::string runs_csv(const LearnerHistory& history) {
-  base::CsvTable table;
+std::string runs_csv(const LearnerHistory& history, const base::CsvFormat& format) {
+  base::CsvTable table(format);
   table.texts({"run", "session", "learner", "begun_at_utc"});
   add_names<LessonResult>(table);
   table.texts({"points_off", "shifts", "errors", "recording", "comments"});
@@ -74,8 +74,8 @@ std::string runs_csv(const LearnerHistory& history) {
   return std::move(table).take();
 }
 
-std::string shifts_csv(const LearnerHistory& history) {
-  base::CsvTable table;
+std::string shifts_csv(const LearnerHistory& history, const base::CsvFormat& format) {
+  base::CsvTable table(format);
   table.text("run");
   add_names<ShiftRecord>(table);
   table.end();
@@ -89,8 +89,8 @@ std::string shifts_csv(const LearnerHistory& history) {
   return std::move(table).take();
 }
 
-std::string errors_csv(const LearnerHistory& history) {
-  base::CsvTable table;
+std::string errors_csv(const LearnerHistory& history, const base::CsvFormat& format) {
+  base::CsvTable table(format);
   table.texts({"run", "error"});
   add_names<DrivingError>(table);
   table.end();
@@ -101,6 +101,17 @@ std::string errors_csv(const LearnerHistory& history) {
       add_fields(table, result.errors[i]);
       table.end();
     }
+  }
+  return std::move(table).take();
+}
+
+std::string standings_csv(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons,
+                          const base::CsvFormat& format) {
+  base::CsvTable table(format);
+  table.texts({"learner", "task", "standing", "why", "next"}).end();
+  for (const LearnerHistory& history : learners) {
+    for (const TaskStanding& task : task_standings(history, lessons))
+      table.texts({history.learner.name, task.task, to_string(task.standing), task.sentence, task.advice}).end();
   }
   return std::move(table).take();
 }

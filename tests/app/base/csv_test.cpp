@@ -24,3 +24,13 @@ TEST_CASE("a table has one line per record") {
   table.text("zero").number(-0.0).end();
   CHECK(std::move(table).take() == "what,value\r\n\"half, or so\",0.5\r\nzero,0\r\n");
 }
+
+TEST_CASE("a table for spreadsheets: byte order mark, another separator, decimal comma") {
+  CsvTable table({';', true, true});
+  table.text("half, or so").text("a;b").number(-0.5).number(1e-9).number(3).end();
+  CHECK(std::move(table).take() == "\xef\xbb\xbfhalf, or so;\"a;b\";-0,5;1e-09;3\r\n");
+  CsvTable quoted({',', true, false});
+  quoted.number(0.5).number(7.0).end();
+  CHECK(std::move(quoted).take() == "\"0,5\",7\r\n");
+  CHECK(csv_field("a;b\tc", '\t') == "\"a;b\tc\"");
+}

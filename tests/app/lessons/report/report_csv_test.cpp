@@ -86,7 +86,7 @@ bool is_read_back(const std::string& field, double value) {
 }  // namespace
 
 TEST_CASE("runs are read back from the table") {
-  const auto records = parse(runs_csv(history_with_everything()));
+  const auto records = parse(runs_csv(history_with_everything(), {}));
   REQUIRE(records.size() == 3);
   auto fields = row(records, 0);
   CHECK(fields["run"] == "12");
@@ -121,12 +121,12 @@ TEST_CASE("rounding errors in a time's last bit are not printed, and a small tim
   result.slip_energy = -0.0;
   result.shifts[0].path_length = 1.25e-7;
   result.shifts[0].impulse = 123456789.125;
-  const auto runs = parse(runs_csv(history));
+  const auto runs = parse(runs_csv(history, {}));
   auto fields = row(runs, 0);
   CHECK(fields["begin_s"] == "13.379");
   CHECK(fields["duration_s"] == "0.333333333333");
   CHECK(fields["slip_energy_j"] == "0");
-  const auto shifts = parse(shifts_csv(history));
+  const auto shifts = parse(shifts_csv(history, {}));
   CHECK(std::stod(row(shifts, 0)["path_length_m"]) == 1.25e-7);
   CHECK(row(shifts, 0)["impulse_n_s"] == "123456789.125");
 }
@@ -134,7 +134,7 @@ TEST_CASE("rounding errors in a time's last bit are not printed, and a small tim
 TEST_CASE("shifts are read back from the table, every number to twelve digits") {
   LearnerHistory history = history_with_everything();
   history.runs[0].result.shifts[2].jerk_peak = std::nextafter(0.1, 1.0);
-  const auto records = parse(shifts_csv(history));
+  const auto records = parse(shifts_csv(history, {}));
   REQUIRE(records.size() == 6);
   for (std::size_t i = 0; i < 5; ++i) {
     auto fields = row(records, i);
@@ -155,7 +155,7 @@ TEST_CASE("shifts are read back from the table, every number to twelve digits") 
 }
 
 TEST_CASE("errors are read back from the table, with points and only the values that their kind has") {
-  const auto records = parse(errors_csv(history_with_everything()));
+  const auto records = parse(errors_csv(history_with_everything(), {}));
   REQUIRE(records.size() == 5);
   auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2), slow = row(records, 3);
   CHECK(stall["kind"] == "stall");
@@ -183,7 +183,7 @@ TEST_CASE("every kind of error has one measured value, in a column with the righ
   history.runs.push_back(run_with(1, 1, 5.0));
   for (int i = 0; i < kErrorKindCount; ++i)
     history.runs[0].result.errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1, 3.0));
-  const auto records = parse(errors_csv(history));
+  const auto records = parse(errors_csv(history, {}));
   REQUIRE(records.size() == kErrorKindCount + 1);
   std::map<std::string, std::string> measured;  // kind of error to column
   for (std::size_t i = 0; i < kErrorKindCount; ++i) {
@@ -205,13 +205,40 @@ TEST_CASE("every kind of error has one measured value, in a column with the righ
   for (const auto& [kind, column] : expected) CHECK(measured[kind] == column);
 }
 
+// The format in which a spreadsheet of a locale with decimal commas reads every number as a number.
+TEST_CASE("with a semicolon and decimal commas the same records are read back, behind a byte order mark") {
+  const gearshift::base::CsvFormat format{';', true, true};
+  const std::string text = runs_csv(history_with_everything(), format), mark = "\xef\xbb\xbf";
+  REQUIRE(text.starts_with(mark + "run;session;learner;"));
+  CHECK(text.find(";12,5;34,25;7,5;") != std::string::npos);  // begin, duration, grade
+  CHECK(text.find("2020,5") != std::string::npos);
+  CHECK(text.find("\"It's \"\"why\"\"; DROP TABLE shift; --\"") != std::string::npos);
+}
+
+TEST_CASE("the class table has a line per learner and task") {
+  std::vector<LearnerHistory> learners(2);
+  learners[0].learner.name = "Ada";
+  learners[0].runs.push_back(run_with(1, 1, 9.0));
+  learners[1].learner.name = "Bo, \"the\" second";
+  std::vector<Lesson> lessons(1);
+  lessons[0].key = "drill";
+  lessons[0].task = "upshift";
+  const auto records = parse(standings_csv(learners, lessons, {}));
+  REQUIRE(records.size() == 3);
+  CHECK(records[1] == std::vector<std::string>{"Ada", "upshift", "nearly",
+                                               "Passed once, but not yet again on another day or after another lesson.",
+                                               "Drive it again on another day."});
+  CHECK(records[2] == std::vector<std::string>{"Bo, \"the\" second", "upshift", "not tried", "", ""});
+}
+
 TEST_CASE("without runs a table has only its header") {
-  for (const std::string& text : {runs_csv({}), shifts_csv({}), errors_csv({})}) CHECK(parse(text).size() == 1);
+  for (const std::string& text : {runs_csv({}, {}), shifts_csv({}, {}), errors_csv({}, {})})
+    CHECK(parse(text).size() == 1);
 }
 
 TEST_CASE("500 runs make 500 records") {
   LearnerHistory history;
   for (int i = 0; i < 500; ++i) history.runs.push_back(run_with(i + 1, 8, 7.0));
-  CHECK(parse(runs_csv(history)).size() == 501);
-  CHECK(parse(shifts_csv(history)).size() == 4001);
+  CHECK(parse(runs_csv(history, {})).size() == 501);
+  CHECK(parse(shifts_csv(history, {})).size() == 4001);
 }
