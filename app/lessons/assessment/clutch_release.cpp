@@ -52,16 +52,17 @@ std::optional<DrivingError> ClutchRelease::add(const vehicle::DriveSample& sampl
   const double jerk = std::abs(filter_.update(sample.car.acceleration, dt));
   if (!open_ && pedal_.went_up() && sample.car.gear != haptics::kNeutralGear) {
     open_ = true;
-    stalled_ = false;
+    stalled_ = burnt_ = false;
     gear_ = sample.car.gear;
     slope_ = sample.controls.slope;
     begin_ = pedal_.up_at();
     closed_at_ = locked_at_ = slip_peak_ = heat_ = jerk_peak_ = 0.0;
   }
+  heat_ += sample.car.slip_power * dt;
+  if (begins_to_smell(sample)) return burn_error(sample.time());
   if (!open_) return std::nullopt;
   stalled_ = stalled_ || !sample.car.running;
   slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
-  heat_ += sample.car.slip_power * dt;
   if (sample.car.pedals.brake < kMaxBrakeForJerk) jerk_peak_ = std::max(jerk_peak_, jerk);
   if (closed_at_ == 0.0 && sample.car.pedals.clutch <= car_.clutch.closed) closed_at_ = sample.time();
   if (!is_over(sample)) return std::nullopt;
@@ -80,18 +81,27 @@ bool ClutchRelease::is_over(const vehicle::DriveSample& sample) noexcept {
   return locked_at_ > 0.0 && time - std::max(locked_at_, closed_at_) >= kJerkSettlingTime;
 }
 
-std::optional<DrivingError> ClutchRelease::judge() const noexcept {
+bool ClutchRelease::begins_to_smell(const vehicle::DriveSample& sample) noexcept {
+  const bool smelt = std::exchange(smells_, sample.car.clutch_smells);
+  return smells_ && !smelt && !burnt_;
+}
+
+DrivingError ClutchRelease::burn_error(double time) noexcept {
+  burnt_ = true;
+  const double burnt = heat_ / burn_limit(car_, gear_, slope_);
+  return make_driving_error(ErrorKind::clutch_burn, error_severity(ErrorKind::clutch_burn, burnt), time, heat_);
+}
+
+std::optional<DrivingError> ClutchRelease::judge() noexcept {
   const bool fast = closed_at_ > 0.0 && closed_at_ - begin_ < kFastRelease;
   if (fast && slip_peak_ >= error_rule(ErrorKind::clutch_dump).raise) {
     return make_driving_error(ErrorKind::clutch_dump, error_severity(ErrorKind::clutch_dump, slip_peak_), begin_,
                               slip_peak_);
   }
-  const double burnt = heat_ / burn_limit(car_, gear_, slope_);
-  if (!stalled_ && burnt >= error_rule(ErrorKind::clutch_burn).raise) {
-    return make_driving_error(ErrorKind::clutch_burn, error_severity(ErrorKind::clutch_burn, burnt), begin_, heat_);
-  }
+  if (stalled_ || burnt_) return std::nullopt;
+  if (heat_ >= error_rule(ErrorKind::clutch_burn).raise * burn_limit(car_, gear_, slope_)) return burn_error(begin_);
   const double jerk_ratio = jerk_peak_ / jerk_limit(car_, gear_);
-  if (!stalled_ && jerk_ratio >= error_rule(ErrorKind::jerk).raise) {
+  if (jerk_ratio >= error_rule(ErrorKind::jerk).raise) {
     return make_driving_error(ErrorKind::jerk, error_severity(ErrorKind::jerk, jerk_ratio), begin_, jerk_peak_);
   }
   return std::nullopt;

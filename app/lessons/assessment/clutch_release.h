@@ -1,4 +1,5 @@
-// Monitors each clutch release in gear until the clutch has locked. Detects a clutch dump, excess clutch heat and jerk.
+// Monitors each clutch release in gear until the clutch has locked. Detects a clutch dump, excess clutch heat and jerk,
+// and a clutch that begins to smell.
 #pragma once
 
 #include <optional>
@@ -37,26 +38,31 @@ class ClutchRelease {
   explicit ClutchRelease(const vehicle::CarSpec& car);
 
   // Call every cycle. When a clutch release ends, returns its most serious error, if any: a clutch dump before a clutch
-  // burn, and a clutch burn before a jerk. If the engine stalled, only a dump is returned.
+  // burn, and a clutch burn before a jerk. If the engine stalled, only a dump is returned. A clutch that begins to smell
+  // is a clutch burn at once, unless the release, however long the clutch slips after it, has already had one.
   std::optional<DrivingError> add(const vehicle::DriveSample& sample, double dt);
   std::optional<DrivingError> finish() noexcept;  // call at the end of the drive; judges a release in progress
 
  private:
   bool is_over(const vehicle::DriveSample& sample) noexcept;
-  std::optional<DrivingError> judge() const noexcept;
+  bool begins_to_smell(const vehicle::DriveSample& sample) noexcept;
+  std::optional<DrivingError> judge() noexcept;
+  DrivingError burn_error(double time) noexcept;
 
   vehicle::CarSpec car_;
   PedalEdge pedal_;
   JerkFilter filter_;
   bool open_ = false;
   bool stalled_ = false;
+  bool burnt_ = false;  // a clutch burn was reported since the last release began
+  bool smells_ = false;
   int gear_ = haptics::kNeutralGear;  // gear at the start of the release
   double slope_ = 0.0;                // [rad] slope at the start of the release
   double begin_ = 0.0;                // [s]
   double closed_at_ = 0.0;            // [s] time at which the pedal was up; 0: not yet
   double locked_at_ = 0.0;            // [s] time at which the clutch locked; 0: not yet
   double slip_peak_ = 0.0;            // [W]
-  double heat_ = 0.0;                 // [J]
+  double heat_ = 0.0;                 // [J] since the release began
   double jerk_peak_ = 0.0;            // [m/s^3]
 };
 

@@ -157,9 +157,6 @@ void ErrorDetector::watch_engine(const vehicle::DriveSample& now, double dt) {
 // the driver neither brakes nor shifts. An open clutch is not reported here, but as coasting or as a slow shift. Also
 // collects the errors of clutch releases.
 void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
-  if (now.car.clutch_smells && !last_.car.clutch_smells)
-    errors_.push_back(make_driving_error(ErrorKind::clutch_burn, error_rule(ErrorKind::clutch_burn).severity,
-                                         now.time(), now.car.slip_energy));
   if (const auto error = release_.add(now, dt)) errors_.push_back(*error);
   const int slot = now.lever.slot;
   const bool at_rest = slot != haptics::kNoSlot && haptics::slot_of(gate_, slot).gear == now.car.gear &&

@@ -203,6 +203,37 @@ TEST_CASE(
   only(launch(1.05 * limit / 2.0, 2.0, true), ErrorKind::stall);
 }
 
+TEST_CASE("clutch burn: one release is one error, also if the clutch begins to smell in it or still slips long after") {
+  const double limit = burn_limit(test_car(), 1);
+  // From 1 s the clutch slips for `seconds` with this fraction of the limit in 5 s. It smells from `smells` on.
+  const auto slip = [&](double fraction, double seconds, double smells) {
+    const auto modify = [=](DriveSample& s, double t) {
+      const ConstructedShift plain;
+      plain.place(s, rest_position(plain.gate, 1));
+      s.car.gear = 1;
+      s.car.road_speed = 0.0;
+      s.car.engine_speed = 200.0;
+      s.car.pedals.clutch = t < 1.0 ? 1.0 : t < 1.0 + seconds ? 0.6 : 0.0;
+      s.car.clutch_locked = t > 1.0 + seconds;
+      s.car.slip_power = within(t, 1.0, 1.0 + seconds) ? fraction * limit / 5.0 : 0.0;
+      s.car.slip_energy = 1e6;  // of the whole drive
+      s.car.clutch_smells = t >= smells;
+    };
+    return in_second(modify, 14.0);
+  };
+  only(slip(1.5, 4.0, 100.0), ErrorKind::clutch_burn);
+  // Judged after 5 s, and it smells 3 s later.
+  CHECK(only(slip(1.2, 10.0, 9.0), ErrorKind::clutch_burn).heat == doctest::Approx(1.2 * limit).epsilon(0.01));
+  // It smells in the release, which is graver when it ends.
+  CHECK(only(slip(2.5, 4.9, 3.0), ErrorKind::clutch_burn).time == doctest::Approx(103.0));
+  // A hold that makes little heat: only the smell is an error, with the heat of this hold.
+  const DrivingError smell = only(slip(0.9, 10.0, 9.0), ErrorKind::clutch_burn);
+  CHECK(smell.time == doctest::Approx(109.0));
+  CHECK(smell.heat == doctest::Approx(0.9 * limit * 8.0 / 5.0).epsilon(0.01));
+  CHECK(smell.severity == Severity::minor);
+  CHECK(slip(0.9, 10.0, 100.0).empty());
+}
+
 TEST_CASE("jerk: from the engaging clutch, not from the brake, nor in addition to the dump or stall that caused it") {
   const auto jerks = [](double brake, double power, bool stalls = false) {
     return in_second([=](DriveSample& s, double t) {
