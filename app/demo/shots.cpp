@@ -34,8 +34,9 @@ const FilmFrame& fastest_frame(std::span<const FilmFrame> film) {
 }
 
 std::string speeds(const FilmFrame& frame) {
-  return fmt::format("{:.0f} km/h, {:.0f} rpm in gear {}", haptics::kKmhPerMps * frame.car.road_speed,
-                     frame.car.engine_speed / haptics::kTurnPerMinute, haptics::gear_name(frame.car.gear));
+  return fmt::format("{:.0f} {}, {:.0f} rpm in gear {}", vehicle::in_unit(frame.car.speed_unit, frame.car.road_speed),
+                     to_string(frame.car.speed_unit), frame.car.engine_speed / haptics::kTurnPerMinute,
+                     haptics::gear_name(frame.car.gear));
 }
 
 // Returns the frame with the largest clutch torque while the handbrake holds the car; null if there is no such frame.

@@ -30,6 +30,25 @@ double full_torque(const EngineSpec& engine, double speed) noexcept {
   return point[engine.points - 1].torque;  // reached only if the table has a single point
 }
 
+double top_speed(const CarSpec& car) noexcept {
+  const BodySpec& body = car.body;
+  double top = 0.0;
+  for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
+    const double per_road = shaft_per_road(car, gear);
+    if (per_road == 0.0) break;
+    const auto is_kept = [&](double speed) {
+      const double drive = full_torque(car.engine, per_road * speed) * per_road * car.gearbox.efficiency;
+      return drive >= body.resistance + (body.resistance_slope + body.resistance_square * speed) * speed;
+    };
+    double low = top, high = car.engine.limiter / per_road;
+    if (is_kept(high)) low = high;
+    // At the highest kept speed, more speed means less drive and more resistance.
+    while (high - low > 0.01) (is_kept(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    top = std::max(top, low);
+  }
+  return top;
+}
+
 double friction_torque(const EngineSpec& engine, double speed) noexcept {
   const double turning = std::abs(speed);
   const double friction = engine.friction + (engine.friction_slope + engine.friction_square * turning) * turning;

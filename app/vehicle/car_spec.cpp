@@ -114,6 +114,7 @@ CarSpec parse_car(std::string_view text, const std::string& file_name) {
   const haptics::TomlTable root = haptics::TomlTable::parse(text, file_name);
   car.title = root.text("title");
   car.gate = root.text("gate");
+  haptics::read_parameters(root, car);
   car.engine = read_engine(root.table("engine"));
   car.clutch = read_clutch(root.table("clutch"));
   car.gearbox = read_gearbox(root.table("gearbox"));

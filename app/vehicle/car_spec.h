@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/vehicle/speed_unit.h"
 #include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
@@ -101,6 +102,7 @@ struct CarSpec {
   std::string name;  // the file's name without .toml
   std::string title;
   std::string gate;  // name of the gate layout
+  SpeedUnit speed_unit = SpeedUnit::km_per_h;
   EngineSpec engine;
   ClutchSpec clutch;
   GearboxSpec gearbox;
@@ -122,6 +124,8 @@ CarSpec parse_car(std::string_view text, const std::string& file_name);
 double shaft_per_road(const CarSpec& car, int gear) noexcept;
 // Torque at full throttle, net of engine friction [N m]. `speed` is in rad/s.
 double full_torque(const EngineSpec& engine, double speed) noexcept;
+// Highest speed that the car keeps on a level road: engine and resistance are in balance, or the limiter cuts in [m/s].
+double top_speed(const CarSpec& car) noexcept;
 // Engine friction with the throttle closed, against the rotation in either direction [N m]. `speed` is in rad/s.
 double friction_torque(const EngineSpec& engine, double speed) noexcept;
 
@@ -235,5 +239,14 @@ inline constexpr Parameter<vehicle::BodySpec> kParameters<vehicle::BodySpec>[] =
      "At the rim, handbrake up."},
 };
 static_assert(DescribesAll<vehicle::BodySpec>);
+
+template <>
+inline constexpr Parameter<vehicle::CarSpec, vehicle::SpeedUnit> kParameters<vehicle::CarSpec>[] = {
+    {&vehicle::CarSpec::speed_unit, "speed_unit", "speed_unit", FileRange{}, "Of dials, prompts and feedback."},
+};
+static_assert(describes_all(&vehicle::CarSpec::name, &vehicle::CarSpec::title, &vehicle::CarSpec::gate,
+                            &vehicle::CarSpec::engine, &vehicle::CarSpec::clutch, &vehicle::CarSpec::gearbox,
+                            &vehicle::CarSpec::synchro, &vehicle::CarSpec::body, &vehicle::CarSpec::text,
+                            &vehicle::CarSpec::file));
 
 }  // namespace gearshift::haptics

@@ -58,6 +58,8 @@ Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
   chain_.inertia = {car.engine.inertia, car.clutch.disc_inertia, car.body.mass + car.body.rotating};
   chain_.efficiency = car.gearbox.efficiency;
   state_.red_line = car.engine.red_line;
+  state_.top_speed = top_speed(car);
+  state_.speed_unit = car.speed_unit;
   state_.clutch_bite = car.clutch.bite;
   state_.clutch_closed = car.clutch.closed;
   place(car.engine.idle, 0.0, 0.0, true);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "app/vehicle/speed_unit.h"
 #include "haptics/loop/lever_load.h"
 
 namespace gearshift::vehicle {
@@ -25,7 +26,7 @@ struct VehicleState {
   double engine_load = 0.0;    // [1] 0 to 1: fraction of the available torque
   bool running = true;         // the engine fires
   bool stalled = false;        // the engine died with the ignition on and has not run by itself since
-  double red_line = 0.0;       // [rad/s] 0: none
+  double red_line = 0.0;       // [rad/s] 0: no car
   bool over_revved = false;    // the engine turns faster than its red line
   bool fuel_cut = false;       // the rev limiter has cut the fuel
   bool cranking = false;       // the starter turns the engine
@@ -62,6 +63,8 @@ struct VehicleState {
   double distance = 0.0;      // [m] distance driven; forward is positive
   double drive_torque = 0.0;  // [N m] torque of the gearbox at the wheels; forward is positive
   double slope = 0.0;         // [rad] slope of the road; uphill is positive
+  double top_speed = 0.0;     // [m/s] 0: no car
+  SpeedUnit speed_unit = SpeedUnit::km_per_h;
   haptics::Pedals pedals;
   bool ignition = true;  // lights the warning lamps if the engine is off
 

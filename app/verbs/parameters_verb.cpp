@@ -36,6 +36,7 @@ std::string gate_table() {
 
 std::string car_table() {
   return ParameterTable(haptics::Missing::error)
+      .add("", vehicle::CarSpec{})
       .add("[engine]", vehicle::EngineSpec{})
       .add("[clutch]", vehicle::ClutchSpec{})
       .add("[gearbox]", vehicle::GearboxSpec{})

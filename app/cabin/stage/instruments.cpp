@@ -36,18 +36,41 @@ bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSn
   return false;
 }
 
+// The scale with the fewest numbers, at most 13 of them besides 0, that is at least `least` long. The numbers are 1, 2 or 5
+// times a power of ten apart, as on real dials.
+DialScale scale_beyond(double least, double step) {
+  for (int i = 0; least > 13.0 * step; ++i) step *= i % 3 == 1 ? 2.5 : 2.0;
+  return {step * std::ceil(least / step), step};
+}
+
 }  // namespace
+
+DialScale tach_scale(double red_line) noexcept {
+  DialScale scale{8000.0, 1000.0};
+  if (red_line > 0.0) {
+    const double least = 1.1 * red_line / haptics::kTurnPerMinute;
+    scale = scale_beyond(least, least > 4000.0 ? 1000.0 : 500.0);
+  }
+  scale.ticks = 4;
+  return scale;
+}
+
+DialScale speed_scale(double top_speed, vehicle::SpeedUnit unit) noexcept {
+  if (!(top_speed > 0.0)) return {220.0, 20.0};
+  return scale_beyond(8.0 / 7.0 * vehicle::in_unit(unit, top_speed), 10.0);
+}
 
 double needle_angle(double value, double top) noexcept {
   return kDegree * (135.0 - 270.0 * std::clamp(value / top, 0.0, 1.0));
 }
 
 double tach_angle(const vehicle::VehicleState& car) noexcept {
-  return needle_angle(car.engine_speed / haptics::kTurnPerMinute, kTachTop);
+  return needle_angle(car.engine_speed / haptics::kTurnPerMinute, tach_scale(car.red_line).top);
 }
 
 double speed_angle(const vehicle::VehicleState& car) noexcept {
-  return needle_angle(haptics::kKmhPerMps * std::abs(car.road_speed), kSpeedTop);
+  return needle_angle(vehicle::in_unit(car.speed_unit, std::abs(car.road_speed)),
+                      speed_scale(car.top_speed, car.speed_unit).top);
 }
 
 double vibration(const vehicle::VehicleState& car, double time) noexcept {

@@ -10,8 +10,17 @@
 
 namespace gearshift::cabin {
 
-inline constexpr double kTachTop = 8000.0;  // [1/min] end of the tachometer's scale
-inline constexpr double kSpeedTop = 220.0;  // [km/h] end of the speedometer's scale
+// The printed scale of a dial, from 0 to `top`. `step` is the distance between two numbers; there are small ticks between.
+struct DialScale {
+  double top = 0.0, step = 0.0;
+  int ticks = 2;  // number of intervals between two numbers
+  bool operator==(const DialScale&) const = default;
+};
+
+// [1/min] Ends at least a tenth beyond the car's red line [rad/s]. For 0 (no car), the dial of the model file: 8000.
+DialScale tach_scale(double red_line) noexcept;
+// [km/h] or [mph] Ends at least a seventh beyond the car's top speed [m/s]. For 0 (no car), the dial of the model file.
+DialScale speed_scale(double top_speed, vehicle::SpeedUnit unit) noexcept;
 
 // Angle of a needle about its axis: 135 deg at zero, -135 deg at the end of the scale, `top`. The angle is limited to
 // the scale.

@@ -165,7 +165,7 @@ struct Stage::State {
 
   void place_instruments(const StageInput& input) {
     const vehicle::VehicleState& car = input.car;
-    dial_changed = dial.print(model, car.red_line) || dial_changed;
+    dial_changed = dial.print(model, car) || dial_changed;
     const double swing = kNeedleVibration * vibration(car, input.time);
     turn(tach, about(kZ, tach_angle(car) + swing));
     turn(speed, about(kZ, speed_angle(car) + swing));

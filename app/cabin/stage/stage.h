@@ -50,7 +50,7 @@ class Stage {
   ~Stage();
 
   const engine::Model& model() const noexcept;  // static parts are merged; gate plate and gearbox match the gate
-  // Returns true once after place() has changed the dial's textures in model() because the car's red line changed.
+  // Returns true once after place() has changed the dial's textures in model() because the car's dials are others.
   bool take_dial_change() noexcept;
 
   // Places everything. The drawn lever follows the proxy with the exact kinematics; while kFlagGhost is set, the ghost

@@ -29,55 +29,105 @@ std::vector<Line> six() {
   return {line};
 }
 
-// The glyph of a gear, in a box that is 0.6 wide and 1 high.
-std::vector<Line> glyph(int gear) {
+constexpr double kLetter = 0.68;  // height of a small letter, relative to a digit
+
+// Adds a stem and `arches` arches of a small letter: n, m, h.
+std::vector<Line> arched(double stem, int arches, double width) {
+  std::vector<Line> lines{{{0.06, 0.0}, {0.06, stem}}};
+  for (int i = 0; i < arches; ++i) {
+    const double left = 0.06 + i * width;
+    Line line;
+    arc(line, {left + 0.5 * width, kLetter - 0.26}, {0.5 * width, 0.26}, 180.0, 0.0);
+    line.emplace_back(left + width, 0.0);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// The glyph of a character, in a box that is 0.6 wide (m: 0.9) and 1 high. An unknown one is a box.
+std::vector<Line> glyph(char character) {
   Line a, b;
-  switch (gear) {
-    case haptics::kReverseGear:
+  switch (character) {
+    case 'R':
       a = {{0.06, 0.0}, {0.06, 1.0}, {0.30, 1.0}};
       arc(a, {0.32, 0.74}, {0.24, 0.26}, 90.0, -90.0);
       a.emplace_back(0.06, 0.48);
       return {a, {{0.30, 0.48}, {0.58, 0.0}}};
-    case haptics::kNextGear:
+    case '+':
       return {{{0.04, 0.5}, {0.56, 0.5}}, {{0.30, 0.24}, {0.30, 0.76}}};
-    case haptics::kPreviousGear:
+    case '-':
       return {{{0.04, 0.5}, {0.56, 0.5}}};
-    case haptics::kNeutralGear:
+    case '/':
+      return {{{0.10, -0.06}, {0.50, 1.06}}};
+    case ' ':
+      return {};
+    case 'N':
       return {{{0.04, 0.0}, {0.04, 1.0}, {0.56, 0.0}, {0.56, 1.0}}};
-    case 1:
+    case '0':
+      arc(a, {0.30, 0.50}, {0.27, 0.50}, 90.0, 450.0);
+      return {a};
+    case '1':
       return {{{0.14, 0.76}, {0.38, 1.0}, {0.38, 0.0}}};
-    case 2:
+    case '2':
       arc(a, {0.30, 0.71}, {0.27, 0.29}, 165.0, -32.0);
       a.insert(a.end(), {{0.03, 0.0}, {0.58, 0.0}});
       return {a};
-    case 3:
+    case '3':
       arc(a, {0.28, 0.755}, {0.25, 0.245}, 150.0, -90.0);
       arc(b, {0.28, 0.255}, {0.29, 0.255}, 90.0, -150.0);
       return {a, b};
-    case 4:
+    case '4':
       return {{{0.44, 0.0}, {0.44, 1.0}, {0.0, 0.28}, {0.60, 0.28}}};
-    case 5:
+    case '5':
       a = {{0.54, 1.0}, {0.11, 1.0}, {0.07, 0.54}};
       arc(a, {0.28, 0.32}, {0.30, 0.32}, 135.0, -150.0);
       return {a};
-    case 6:
+    case '6':
       return six();
-    case 7:
+    case '7':
       return {{{0.03, 1.0}, {0.57, 1.0}, {0.20, 0.0}}};
-    case 8:
+    case '8':
       arc(a, {0.30, 0.755}, {0.24, 0.245}, -90.0, 270.0);
       arc(b, {0.30, 0.255}, {0.28, 0.255}, 90.0, 450.0);
       return {a, b};
-    case 9: {
+    case '9': {
       std::vector<Line> turned = six();
       for (Line& line : turned) {
         for (glm::dvec2& p : line) p = glm::dvec2(0.6, 1.0) - p;
       }
       return turned;
     }
+    case 'h':
+      return arched(1.0, 1, 0.44);
+    case 'i':
+      return {{{0.30, 0.0}, {0.30, kLetter}}, {{0.30, 0.93}, {0.30, 0.94}}};
+    case 'k':
+      return {{{0.06, 0.0}, {0.06, 1.0}}, {{0.50, kLetter}, {0.08, 0.26}}, {{0.24, 0.42}, {0.54, 0.0}}};
+    case 'm':
+      return arched(kLetter, 2, 0.36);
+    case 'n':
+      return arched(kLetter, 1, 0.44);
+    case 'p':
+      arc(a, {0.29, 0.5 * kLetter}, {0.23, 0.5 * kLetter}, 180.0, -180.0);
+      return {{{0.06, -0.28}, {0.06, kLetter}}, a};
+    case 'x':
+      return {{{0.08, 0.0}, {0.52, kLetter}}, {{0.08, kLetter}, {0.52, 0.0}}};
     default:
       return {{{0.0, 0.0}, {0.6, 0.0}, {0.6, 1.0}, {0.0, 1.0}, {0.0, 0.0}}};
   }
+}
+
+double width_of(char character) {
+  if (character == ' ') return 0.3;
+  return character == 'm' ? 0.9 : 0.6;
+}
+
+char label_of(int gear) {
+  if (gear == haptics::kReverseGear) return 'R';
+  if (gear == haptics::kNeutralGear) return 'N';
+  if (gear == haptics::kNextGear) return '+';
+  if (gear == haptics::kPreviousGear) return '-';
+  return gear >= 1 && gear <= haptics::kMaxGear ? static_cast<char>('0' + gear) : '?';
 }
 
 glm::dvec2 left_of(glm::dvec2 direction) {
@@ -114,18 +164,6 @@ double srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// Fraction [1] of the pixel around p that the stroke covers, computed from the distance between p and the stroke's
-// centre line.
-double coverage(const Stroke& stroke, glm::dvec2 p, double pixel) {
-  double nearest = 1e9;
-  for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
-    const glm::dvec2 along = stroke.line[i + 1] - stroke.line[i], off = p - stroke.line[i];
-    const double t = std::clamp(glm::dot(off, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
-    nearest = std::min(nearest, glm::length(off - t * along));
-  }
-  return std::clamp(0.5 + (0.5 * stroke.width - nearest) / pixel, 0.0, 1.0);
-}
-
 void draw(const Stroke& stroke, int side, std::vector<glm::vec3>& picture) {
   glm::dvec2 low = stroke.line.front(), high = low;
   for (const glm::dvec2 p : stroke.line) {
@@ -139,20 +177,43 @@ void draw(const Stroke& stroke, int side, std::vector<glm::vec3>& picture) {
       const glm::dvec2 p{(column + 0.5) * pixel, 1.0 - (row + 0.5) * pixel};
       glm::vec3& ground =
           picture[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(column)];
-      ground = glm::mix(ground, stroke.colour, static_cast<float>(coverage(stroke, p, pixel)));
+      ground = glm::mix(ground, stroke.colour, static_cast<float>(stroke_coverage(stroke, p, pixel)));
     }
   }
 }
 
 }  // namespace
 
-std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour) {
+double stroke_coverage(const Stroke& stroke, glm::dvec2 p, double pixel) noexcept {
+  double nearest = 1e9;
+  for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
+    const glm::dvec2 along = stroke.line[i + 1] - stroke.line[i], off = p - stroke.line[i];
+    const double t = std::clamp(glm::dot(off, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
+    nearest = std::min(nearest, glm::length(off - t * along));
+  }
+  return std::clamp(0.5 + (0.5 * stroke.width - nearest) / pixel, 0.0, 1.0);
+}
+
+std::vector<Stroke> text_strokes(std::string_view text, glm::dvec2 centre, double height, double width,
+                                 glm::vec3 colour) {
+  constexpr double kGap = 0.24;
+  double length = kGap * static_cast<double>(text.size() - 1);
+  for (const char character : text) length += width_of(character);
   std::vector<Stroke> strokes;
-  for (Line& line : glyph(gear)) {
-    for (glm::dvec2& p : line) p = centre + height * (p - glm::dvec2(0.3, 0.5));
-    strokes.push_back({std::move(line), width, colour});
+  double left = -0.5 * length;
+  for (const char character : text) {
+    for (Line& line : glyph(character)) {
+      for (glm::dvec2& p : line) p = centre + height * (p + glm::dvec2(left, -0.5));
+      strokes.push_back({std::move(line), width, colour});
+    }
+    left += width_of(character) + kGap;
   }
   return strokes;
+}
+
+std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour) {
+  const char label = label_of(gear);
+  return text_strokes({&label, 1}, centre, height, width, colour);
 }
 
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {

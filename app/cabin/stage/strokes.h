@@ -1,6 +1,7 @@
-// Strokes, i.e. lines with a width, for the font of the gear labels and the shift pattern on the knob.
+// Strokes, i.e. lines with a width, for the font of gear labels and dials and for the shift pattern on the knob.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -19,6 +20,11 @@ struct Stroke {
   glm::vec3 colour{1.0f};  // linear
 };
 
+// Strokes of a text of digits, "R", "N", "+", "-", "/", " " and the small letters of "km/h", "mph" and "min x". `height` is
+// that of a digit; any other character is a box.
+std::vector<Stroke> text_strokes(std::string_view text, glm::dvec2 centre, double height, double width,
+                                 glm::vec3 colour);
+
 // Strokes of the label "R", "N" or "1" to "9", centred at `centre`. `width` is the line width. The label of an unknown
 // gear is a box.
 std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour);
@@ -26,6 +32,9 @@ std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, doubl
 // The gate's shift pattern as printed on a knob, in the unit square with y up. The distances between columns are to
 // scale. All slots have the same length, with the gear labels at their ends.
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour);
+
+// Fraction [1] of a square of side `pixel` around p that the stroke covers, from the distance to its centre line.
+double stroke_coverage(const Stroke& stroke, glm::dvec2 p, double pixel) noexcept;
 
 // Returns the triangles of a stroke with rounded ends and corners; three points per triangle, counter-clockwise.
 std::vector<glm::dvec2> stroke_triangles(const Stroke& stroke);

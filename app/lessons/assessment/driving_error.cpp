@@ -26,7 +26,7 @@ struct Shown {
   int digits = 0;
 };
 constexpr Shown kWhole{1.0, 0}, kTenths{1.0, 1}, kHundredths{1.0, 2};
-constexpr Shown kInRpm{1.0 / haptics::kTurnPerMinute, 0}, kInKmh{haptics::kKmhPerMps, 0}, kInKilo{1e-3, 1};
+constexpr Shown kInRpm{1.0 / haptics::kTurnPerMinute, 0}, kInKilo{1e-3, 1};
 
 struct ErrorDescription {
   ErrorKind kind;
@@ -117,9 +117,9 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::too_slow, "too_slow", &E::duration, kTenths, ErrorRule{2.5, 0.0, 6.0, Severity::minor},
      "take too long to shift", "The shift took too long ({} s).",
      "Press the clutch, move the lever and release the clutch in one smooth motion."},
-    {ErrorKind::wrong_direction, "wrong_direction", &E::road_speed, kInKmh, ErrorRule{1.0, 0.0, 5.0, Severity::severe},
+    {ErrorKind::wrong_direction, "wrong_direction", &E::road_speed, kWhole, ErrorRule{1.0, 0.0, 5.0, Severity::severe},
      "engage a gear while the car rolls the other way",
-     "You engaged a gear while the car was rolling the other way at {} km/h.", "Stop before you change direction."},
+     "You engaged a gear while the car was rolling the other way at {}.", "Stop before you change direction."},
     // Relative to the allowed time.
     {ErrorKind::slow_step, "slow_step", &E::duration, kTenths, ErrorRule{1.0, 0.0, 2.0, Severity::minor},
      "take too long for a step", "A step took too long ({} s).",
@@ -168,10 +168,15 @@ double measured(const DrivingError& error) {
                     description_of(error.kind).measured);
 }
 
+std::string format_speed(vehicle::SpeedUnit unit, double speed) {
+  return fmt::format("{:.0f} {}", vehicle::in_unit(unit, speed), to_string(unit));
+}
+
 std::string format_measured(const DrivingError& error) {
   const Figure& figure = description_of(error.kind).measured;
   const Shown& shown = description_of(error.kind).shown;
   if (figure == Figure(&DrivingError::gear)) return gear_word(error.gear.value_or(haptics::kNeutralGear));
+  if (figure == Figure(&DrivingError::road_speed)) return format_speed(error.speed_unit, measured(error));
   return fmt::format("{:.{}f}", shown.scale * measured(error), shown.digits);
 }
 
@@ -229,8 +234,8 @@ std::string error_sentence(const DrivingError& error) {
     return std::string(kOrderMistakes[static_cast<std::size_t>(error.mistake)][1]);
   if (error.target_speed) {
     const bool late = error.kind == ErrorKind::late_shift, down = error.kind == ErrorKind::early_downshift;
-    return fmt::format("You shifted {}too {}: the target was {:.0f} km/h.", down ? "down " : "",
-                       late ? "late" : "early", haptics::kKmhPerMps * *error.target_speed);
+    return fmt::format("You shifted {}too {}: the target was {}.", down ? "down " : "", late ? "late" : "early",
+                       format_speed(error.speed_unit, *error.target_speed));
   }
   if (error.wrong_slots == 1) return "The lever entered the wrong slot.";
   if (error.time_limit)

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/lessons/assessment/record_field.h"
+#include "app/vehicle/speed_unit.h"
 
 namespace gearshift::lessons {
 
@@ -96,6 +97,7 @@ struct DrivingError {
   std::optional<double> time_limit{};    // [s] for the step
   std::string step{};                    // prompt of the step that took too long; else empty
   OrderMistake mistake = OrderMistake::other;
+  vehicle::SpeedUnit speed_unit = vehicle::SpeedUnit::km_per_h;  // of the sentence: the car's
 };
 
 constexpr void each_field(FieldsOf<DrivingError> auto&& error, auto&& visit) {
@@ -123,6 +125,7 @@ constexpr void each_field(FieldsOf<DrivingError> auto&& error, auto&& visit) {
   visit(RecordField{"time_limit_s"}, error.time_limit);
   visit(RecordField{"step"}, error.step);
   visit(RecordField{"mistake"}, error.mistake);
+  visit(RecordField{"speed_unit"}, error.speed_unit);
 }
 
 // Makes an error whose measured value, the one that the table names for this kind, is `measured`.

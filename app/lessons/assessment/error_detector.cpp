@@ -452,6 +452,7 @@ bool ErrorDetector::report_if(ErrorKind kind, double time, double value, std::in
 }
 
 std::vector<DrivingError> ErrorDetector::drain_errors() {
+  for (DrivingError& error : errors_) error.speed_unit = car_.speed_unit;
   return std::exchange(errors_, {});
 }
 

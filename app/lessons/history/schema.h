@@ -16,8 +16,10 @@ std::string schema();
 
 // Script i upgrades a file from version i + 1 to i + 2. All needed scripts run in one
 // transaction, with foreign keys off, so that recreating a table does not delete dependent rows.
-// Version 2 changes no table: learners whose names look equal are one (History::State::join_equal_learners).
-inline constexpr std::array<const char*, 1> kUpgrades{""};
+// Learners whose names look equal are joined by version 2, too (History::State::join_equal_learners).
+inline constexpr std::array<const char*, 1> kUpgrades{
+    "ALTER TABLE driving_error ADD COLUMN speed_unit INTEGER NOT NULL DEFAULT 0;",
+};
 inline constexpr int kSchemaVersion = 1 + static_cast<int>(std::tuple_size_v<decltype(kUpgrades)>);
 
 }  // namespace gearshift::lessons

@@ -43,6 +43,10 @@ void draw_word(const std::string& text, ImU32 colour) {
 
 }  // namespace
 
+std::string format_speed(const vehicle::VehicleState& car) {
+  return format_value(vehicle::in_unit(car.speed_unit, car.road_speed), to_string(car.speed_unit), 0);
+}
+
 double slope_percent(const vehicle::VehicleState& car) {
   return round_as_printed(100.0 * std::tan(car.slope), 0);
 }
@@ -58,7 +62,7 @@ void draw_car_strip(const vehicle::VehicleState& car, int gear) {
   } else {
     draw_word(format_rpm(std::abs(car.engine_speed)), car.over_revved ? ink::kBad : ink::kText);
   }
-  draw_word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
+  draw_word(format_speed(car), ink::kText);
   draw_word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
   if (car.pedals.hand_brake > kHandBrakeOn) draw_word("handbrake", ink::kBad);
   if (car.clutch_smells) draw_word(car.clutch_fades ? "clutch slips: too hot" : "clutch smells: too hot", ink::kBad);

@@ -10,7 +10,8 @@ namespace gearshift::ui {
 
 inline constexpr double kHandBrakeOn = 0.05;  // [1] lever position above which the handbrake lamp is lit
 
-double slope_percent(const vehicle::VehicleState& car);  // [%] rounded to the displayed precision; positive uphill
+std::string format_speed(const vehicle::VehicleState& car);  // with the car's unit
+double slope_percent(const vehicle::VehicleState& car);      // [%] rounded to the displayed precision; positive uphill
 
 // Draws pedals, speeds and active warnings from left to right, wrapped if necessary. The clutch bar changes colour
 // while the clutch bites, i.e. slips and transmits torque.

@@ -87,7 +87,7 @@ void draw_car(const BarCursor& parts, const PanelInput& input) {
   if (car.stalled)
     list.AddRectFilled({at - 0.3f * em, top}, {at + 4.6f * em, top + ImGui::GetTextLineHeight()},
                        engine::with_alpha(ink::kBad, 0.25f), 3.0f);
-  list.AddText({at, top + line}, ink::kText, format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0).c_str());
+  list.AddText({at, top + line}, ink::kText, format_speed(car).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
   pedal("C", car.pedals.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);

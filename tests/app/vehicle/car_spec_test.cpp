@@ -73,7 +73,8 @@ constexpr Hostile kHostile[] = {
     {"torque_stops_short",
      ":4: full_load = (a list): must cover all speeds from idle_rpm to limiter_rpm, but covers only 600 to 6000 rpm"},
     {"unknown_key", ":73: abs is not a known key; known keys: mass_kg"},
-    {"unknown_table", ":74: turbo is not a known key; known keys: title, gate, engine, clutch, gearbox, synchro, body"},
+    {"unknown_table",
+     ":74: turbo is not a known key; known keys: title, gate, speed_unit, engine, clutch, gearbox, synchro, body"},
     {"wheel_in_metres", ":68: wheel_radius_mm = 0.303: must be between 100 and 1000"},
 };
 
@@ -130,6 +131,40 @@ TEST_CASE("the hatchback is the car used for the other methods, in SI units") {
   for (int gear = 1; gear <= 5; ++gear)
     CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
   CHECK(shaft_per_road(car, 6) == 0.0);
+}
+
+TEST_CASE(
+    "top speed: a long drive at full throttle on the level comes close to it and never beyond; the limiter ends it") {
+  for (const std::string name : {"hatchback", "diesel"}) {
+    CarSpec car = shipped_car(name);
+    CAPTURE(name);
+    double best = 0.0;
+    for (int gear = 3; gear <= (name == "diesel" ? 6 : 5); ++gear) {
+      Driveline line(car);
+      const double start = 0.9 * top_speed(car), shaft = shaft_per_road(car, gear) * start;
+      if (shaft > car.engine.limiter) continue;
+      line.place(shaft, shaft, start, true);
+      DrivelineInput in;
+      in.pedals.throttle = 1.0;
+      in.meshed = gear;
+      for (int i = 0; i < 400000; ++i) line.step(in, 0.001);
+      best = std::max(best, line.state().road_speed);
+    }
+    CHECK(top_speed(car) == doctest::Approx(best).epsilon(0.005));
+    car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
+    const int highest = name == "diesel" ? 6 : 5;
+    CHECK(top_speed(car) == doctest::Approx(road_speed_at(car, highest, car.engine.limiter)).epsilon(0.1));
+  }
+}
+
+TEST_CASE("a car shows km/h unless its file says mph; any other unit is refused") {
+  const CarSpec metric = shipped_car("hatchback");
+  CHECK(metric.speed_unit == SpeedUnit::km_per_h);
+  const auto with = [&](const std::string& line) { return parse_car(line + metric.text, "car.toml"); };
+  CHECK(with("speed_unit = \"mph\"\n").speed_unit == SpeedUnit::mph);
+  CHECK(with("speed_unit = \"km/h\"\n").speed_unit == SpeedUnit::km_per_h);
+  CHECK_THROWS_AS(with("speed_unit = \"knots\"\n"), FileError);
+  CHECK(in_unit(SpeedUnit::mph, 1609.344 / 36.0) == doctest::Approx(100.0));  // a mile in 36 s
 }
 
 TEST_CASE("every shipped car fits its gate, and its rings block") {

@@ -33,6 +33,13 @@ TEST_CASE("the middle of the scale is at twelve o'clock, its ends are 135 deg to
   CHECK(cabin::speed_angle(car) == doctest::Approx(0.0));
   car.road_speed = -110.0 / 3.6;
   CHECK(cabin::speed_angle(car) == doctest::Approx(0.0));
+  car.top_speed = 50.0;
+  car.speed_unit = vehicle::SpeedUnit::mph;
+  car.road_speed = 65.0 * 0.44704;  // the scale ends at 130 mph
+  CHECK(cabin::speed_angle(car) == doctest::Approx(0.0));
+  vehicle::VehicleState diesel = running(3000.0);
+  diesel.red_line = 4750.0 * kPi / 30.0;
+  CHECK(cabin::tach_angle(diesel) == doctest::Approx(0.0));
 }
 
 TEST_CASE("a needle stays on its scale") {
