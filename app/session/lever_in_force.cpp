@@ -64,6 +64,7 @@ runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const Re
   if (lesson) {
     config.start = lessons::car_start(lesson->start);
     config.pedals.hand_brake = lesson->start.hand_brake;
+    config.pedals.brake = lesson->start.brake;
   }
   if (choice.stick) config.lever = [stick = choice.stick](double period) { return stick->lever(period); };
   if (choice.hand != kAutomaticHand) return config;
@@ -99,7 +100,8 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
     next.runtime = std::make_unique<runtime::Runtime>(next.config);
     next.gate = next.runtime->gate();
   }
-  if (lesson != nullptr) next.switches = CarSwitches{lesson->start.running, lesson->start.hand_brake};
+  if (lesson != nullptr)
+    next.switches = CarSwitches{lesson->start.running, lesson->start.hand_brake, lesson->start.brake};
   return next;
 }
 
@@ -110,6 +112,7 @@ void LeverInForce::hand_over(Next next) {
   runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
   is_new_ = true;
   is_car_held_ = false;
+  start_brake_ = next.switches && !runtime_->config().driver ? next.switches->brake : 0.0;
   running_ = std::move(next.choice);
   if (next.switches) switches_ = next.switches;
   if (switches_) {
@@ -121,9 +124,10 @@ void LeverInForce::hand_over(Next next) {
 
 // The learner's feet stay where they are. A pedal that the instructor holds is not the learner's.
 void LeverInForce::hand_over_pedals(runtime::RuntimeConfig& config) const {
-  const double hand_brake = config.pedals.hand_brake;
+  const haptics::Pedals start = config.pedals;
   config.pedals = controls_.pedals;
-  config.pedals.hand_brake = hand_brake;
+  config.pedals.hand_brake = start.hand_brake;
+  config.pedals.brake = std::max(config.pedals.brake, start.brake);
   config.pedal_keys = keys_;
   if (runtime_ && !is_car_held_) config.keyboard = runtime_->keyboard();
 }
@@ -224,6 +228,9 @@ void LeverInForce::send_controls(const LessonControls& lesson) {
     controls.pedals.throttle = 0.0;
     controls.pedals.brake = std::max(controls.pedals.brake, 0.5);
   }
+  const double pressed = std::max(controls.pedals.brake, runtime_->keyboard().brake);
+  if (pressed >= start_brake_) start_brake_ = 0.0;
+  controls.pedals.brake = std::max(controls.pedals.brake, start_brake_);
   controls.slope = lesson.slope;
   controls.guidance = lesson.guidance;
   controls.guided_gear = lesson.guided_gear;

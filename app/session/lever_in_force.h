@@ -54,6 +54,7 @@ static_assert(std::ranges::all_of(kForceRules, [](const ForceRule& rule) { retur
 struct CarSwitches {
   bool ignition = true;
   double hand_brake = 0.0;  // [1] 0: released, 1: fully applied
+  double brake = 0.0;       // [1] the instructor holds the foot brake there until the user presses it
 };
 
 // The first limit that the device imposes on a tuning, as a sentence; empty: none
@@ -134,6 +135,7 @@ class LeverInForce {
   haptics::PedalKeys keys_;           // the user's
   std::optional<CarSwitches> switches_;
   bool is_car_held_ = false;
+  double start_brake_ = 0.0;         // [1] foot brake that the instructor still holds at the start of a lesson
   bool wants_forces_ = false;        // forces are on, or ended by a fault that was not noticed yet
   bool has_just_armed_ = false;      // the user switched forces on in this frame
   bool is_stick_connected_ = false;  // the stick was connected in the previous frame

@@ -170,6 +170,7 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   ++run_;
   const runtime::RuntimeConfig& config = lever_.runtime().config();
   if (config.car) configure_sound(*config.car);
+  director_.coach().set_speed_unit(config.car ? config.car->speed_unit : vehicle::SpeedUnit::km_per_h);
   if (config.clock == runtime::RuntimeClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
   director_.set_road(lesson);
   lever_.send_controls(director_.controls());

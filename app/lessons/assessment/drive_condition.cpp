@@ -19,7 +19,8 @@ bool is_between(const std::optional<double>& above, const std::optional<double>&
 bool holds(const DriveCondition& c, const vehicle::DriveSample& sample, const DriveProgress& progress) noexcept {
   const vehicle::VehicleState& car = sample.car;
   return (!c.gear || *c.gear == car.gear) && matches(c.ignition, car.ignition) && matches(c.running, car.running) &&
-         matches(c.clutch_locked, car.clutch_locked) && matches(c.shift_light, car.shift_advice > 0) &&
+         matches(c.cranking, car.cranking) && matches(c.clutch_locked, car.clutch_locked) &&
+         matches(c.shift_light, car.shift_advice > 0) &&
          matches(c.braked, car.pedals.brake > kMinHoldingBrake || car.pedals.hand_brake > kMinHoldingHandBrake) &&
          is_between(c.clutch_above, c.clutch_below, car.pedals.clutch) &&
          is_between(c.clutch_torque_above, {}, car.clutch_torque) &&

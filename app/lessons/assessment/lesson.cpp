@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+
+#include <fmt/core.h>
 
 #include "app/lessons/assessment/clutch_release.h"
 #include "app/lessons/assessment/drive_condition.h"
@@ -84,6 +87,8 @@ LessonStart read_start(const haptics::TomlTable& table) {
   start.slope = std::atan(table.number_or("slope_percent", 0.0, kSlopePercent) / 100.0);
   table.reject_unknown_keys();
   if (start.gear == haptics::kReverseGear && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 in gear R");
+  if (start.running && start.speed == 0.0 && start.gear != haptics::kNeutralGear)
+    table.fail("gear", "must be \"N\" if the car stands and the engine runs, or it would stall at once");
   if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 if the engine is not running");
   return start;
 }
@@ -242,6 +247,39 @@ void check_times(const haptics::TomlTable& root, const Lesson& lesson) {
   if (held >= lesson.time_limit) root.fail("time_limit_s", "must be longer than the sum of held_s over all steps");
 }
 
+bool is_digit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
+
+// Where the speeds at the end of `text` begin, at `from` or later; they may be a list such as "30, 50 and 70".
+std::size_t speeds_begin(std::string_view text, std::size_t from) {
+  std::size_t begin = text.size();
+  for (bool more = true; more;) {
+    while (begin > from && (is_digit(text[begin - 1]) || text[begin - 1] == '.')) --begin;
+    more = false;
+    for (const std::string_view joint : {", ", " to ", " and ", " or "}) {
+      const bool joins = begin > from + joint.size() && text.substr(0, begin).ends_with(joint) &&
+                         is_digit(text[begin - joint.size() - 1]);
+      if (joins) begin -= joint.size(), more = true;
+    }
+  }
+  return begin;
+}
+
+// Numbers are in km/h, all other characters stay.
+std::string converted_speeds(std::string_view list, vehicle::SpeedUnit unit) {
+  std::string out;
+  while (!list.empty()) {
+    double speed = 0.0;
+    const auto [end, error] = std::from_chars(list.data(), list.data() + list.size(), speed, std::chars_format::fixed);
+    const bool is_number = error == std::errc() && is_digit(list.front());
+    out += is_number ? fmt::format("{:.0f}", vehicle::in_unit(unit, speed / haptics::kKmhPerMps))
+                     : std::string(list.substr(0, 1));
+    list.remove_prefix(is_number ? static_cast<std::size_t>(end - list.data()) : 1);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool fails_on(const Lesson& lesson, ErrorKind kind) noexcept {
@@ -261,8 +299,27 @@ std::string failing_errors_sentence(const Lesson& lesson) {
   return names.empty() ? names : "You fail if you " + names + ".";
 }
 
+std::string text_in_unit(std::string_view text, vehicle::SpeedUnit unit) {
+  if (unit == vehicle::SpeedUnit::km_per_h) return std::string(text);
+  constexpr std::string_view kUnit = " km/h";
+  std::string out;
+  std::size_t done = 0;
+  for (std::size_t at; (at = text.find(kUnit, done)) != text.npos; done = at + kUnit.size()) {
+    const std::size_t begin = speeds_begin(text.substr(0, at), done);
+    out += text.substr(done, begin - done);
+    out += converted_speeds(text.substr(begin, at - begin), unit) + ' ' + to_string(unit);
+  }
+  return out.append(text.substr(done));
+}
+
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car) {
   Lesson driven = lesson;
+  driven.goal = text_in_unit(lesson.goal, car.speed_unit);
+  for (LessonStep& step : driven.steps) {
+    step.prompt = text_in_unit(step.prompt, car.speed_unit);
+    step.hint = text_in_unit(step.hint, car.speed_unit);
+  }
+  for (LessonAbort& abort : driven.aborts) abort.message = text_in_unit(abort.message, car.speed_unit);
   for (LessonStep& step : driven.steps) {
     DriveCondition& until = step.until;
     if (until.clutch_holds_car) until.clutch_torque_above = std::abs(hill_torque(car, *until.gear, lesson.start.slope));

@@ -18,7 +18,7 @@ namespace gearshift::lessons {
 // Met when all terms that are set have been true together for `held` seconds without a break.
 struct DriveCondition {
   std::optional<int> gear;
-  std::optional<bool> ignition, running, clutch_locked;
+  std::optional<bool> ignition, running, cranking, clutch_locked;
   std::optional<bool> shift_light;                   // the shift light advises a higher gear
   std::optional<bool> braked;                        // foot brake or handbrake holds the car
   std::optional<double> clutch_above, clutch_below;  // [1] pedal
@@ -60,6 +60,7 @@ struct LessonStart {
   double speed = 0.0;       // [m/s]
   double slope = 0.0;       // [rad] uphill is positive
   double hand_brake = 0.0;  // [1]
+  double brake = 0.0;       // [1] the instructor holds the foot brake until the learner does
   bool running = true;
 };
 vehicle::CarStart car_start(const LessonStart& start) noexcept;  // state of the car at the start
@@ -98,8 +99,11 @@ bool assesses(const Lesson& lesson, ErrorKind kind) noexcept;
 // error fails the lesson.
 std::string failing_errors_sentence(const Lesson& lesson);
 
-// Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band, and with the
-// clutch torque that holds this car on the slope, where a step waits for it.
+// The text with every speed in this unit: "3 to 6 km/h" becomes "2 to 4 mph". Rounded to whole numbers.
+std::string text_in_unit(std::string_view text, vehicle::SpeedUnit unit);
+
+// Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band, with the
+// clutch torque that holds this car on the slope, where a step waits for it, and with texts in the car's unit of speed.
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car);
 
 }  // namespace gearshift::lessons
@@ -111,6 +115,7 @@ template <>
 inline constexpr Parameter<lessons::DriveCondition> kParameters<lessons::DriveCondition>[] = {
     {&lessons::DriveCondition::ignition, "ignition", "ignition", FileRange{}, ""},
     {&lessons::DriveCondition::running, "running", "running", FileRange{}, ""},
+    {&lessons::DriveCondition::cranking, "cranking", "cranking", FileRange{}, "The starter turns the engine."},
     {&lessons::DriveCondition::clutch_locked, "clutch_locked", "clutch_locked", FileRange{}, "Closed, no slip."},
     {&lessons::DriveCondition::shift_light, "shift_light", "shift_light", FileRange{}, "Asks for a higher gear."},
     {&lessons::DriveCondition::braked, "braked", "braked", FileRange{},
@@ -164,6 +169,7 @@ inline constexpr Parameter<lessons::LessonStart> kParameters<lessons::LessonStar
     {&lessons::LessonStart::speed, "speed", "speed_km_per_h", FileRange{0.0, 150.0, file_unit::kKmPerHour},
      "0 in R and with the engine off."},
     {&lessons::LessonStart::hand_brake, "hand_brake", "hand_brake", FileRange{0.0, 1.0}, "Lever, 1 is fully up."},
+    {&lessons::LessonStart::brake, "brake", "brake", FileRange{0.0, 1.0}, "Held until you press the pedal as far."},
     {&lessons::LessonStart::running, "running", "running", FileRange{}, ""},
 };
 static_assert(describes_all(&lessons::LessonStart::gear, &lessons::LessonStart::slope));

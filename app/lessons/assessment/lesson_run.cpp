@@ -55,10 +55,26 @@ void check_revs(const Lesson& lesson, const vehicle::CarSpec& car) {
   const double start = std::abs(vehicle::shaft_per_road(car, lesson.start.gear)) * lesson.start.speed;
   if (start > car.engine.red_line) refuse("starts at", start);
   for (std::size_t i = 0; i < lesson.steps.size(); ++i) {
-    const double above = lesson.steps[i].until.engine_above.value_or(0.0);
+    const DriveCondition& until = lesson.steps[i].until;
+    const double turns = vehicle::shaft_per_road(car, until.gear.value_or(haptics::kNeutralGear));
+    const double above = std::max(until.engine_above.value_or(0.0), turns * until.speed_above.value_or(0.0));
     if (above >= car.engine.red_line) refuse(fmt::format("asks in step {} for", i + 1), above);
   }
   if (lesson.shift_from >= car.engine.red_line) refuse("asks to shift up from", lesson.shift_from);
+}
+
+// Throws if the lesson asks for more speed than this car reaches.
+void check_speeds(const Lesson& lesson, const vehicle::CarSpec& car) {
+  const double top = vehicle::top_speed(car);
+  for (std::size_t i = 0; i < lesson.steps.size(); ++i) {
+    const double above = lesson.steps[i].until.speed_above.value_or(0.0);
+    if (above <= 0.0 || top <= 0.0 || above < top) continue;
+    throw std::invalid_argument(
+        fmt::format("lesson {} asks in step {} for {:.0f} {unit}, but the car \"{}\" reaches {:.0f} {unit}; choose "
+                    "another car",
+                    lesson.key, i + 1, vehicle::in_unit(car.speed_unit, above), car.name,
+                    vehicle::in_unit(car.speed_unit, top), fmt::arg("unit", to_string(car.speed_unit))));
+  }
 }
 
 }  // namespace
@@ -119,6 +135,7 @@ LessonRun::LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const ha
                      const LessonRunConfig& config) {
   check_gears(lesson, gate);
   check_revs(lesson_in_car(lesson, car), car);
+  check_speeds(lesson, car);
   state_ = std::make_unique<State>(lesson, car, gate, config);
   LessonResult& result = state_->result;
   result.lesson = lesson.key;

@@ -67,6 +67,7 @@ struct Coach::State {
   CoachView view;
   std::vector<GradedTrial> past;  // the learner's graded trials, oldest first; as of the last refresh_view()
   std::optional<Lesson> lesson;
+  vehicle::SpeedUnit unit = vehicle::SpeedUnit::km_per_h;
   std::optional<LessonMode> chosen_mode;  // mode that the user chose for this lesson
   std::unique_ptr<LessonRun> run;         // the current or last trial
   std::optional<std::uint64_t> cycle;     // number of the trial's last cycle in the haptic loop
@@ -141,6 +142,11 @@ void Coach::set_mode(LessonMode mode) {
 void Coach::set_help(bool on) {
   state_->view.help_wanted = on;
   if (state_->view.phase == LessonPhase::offered) state_->plan();
+}
+
+void Coach::set_speed_unit(vehicle::SpeedUnit unit) {
+  state_->unit = unit;
+  if (state_->lesson) state_->view.goal = text_in_unit(state_->lesson->goal, unit);
 }
 
 void Coach::offer(const Lesson& lesson) {
@@ -314,7 +320,7 @@ void Coach::State::offer() {
   view.phase = LessonPhase::offered;
   view.lesson = lesson->key;
   view.title = lesson->title;
-  view.goal = lesson->goal;
+  view.goal = text_in_unit(lesson->goal, unit);
   view.fail_conditions = failing_errors_sentence(*lesson);
   view.time_limit = lesson->time_limit;
   show_trial();

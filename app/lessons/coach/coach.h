@@ -55,6 +55,7 @@ class Coach {
   void rename_learner(const std::string& typed);
   void set_mode(LessonMode mode);
   void set_help(bool on);
+  void set_speed_unit(vehicle::SpeedUnit unit);  // of the goal that is shown before the lesson: the current car's
 
   // Ends a running lesson early. Offering the same lesson again prepares a new trial.
   void offer(const Lesson& lesson);

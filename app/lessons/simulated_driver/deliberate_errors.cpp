@@ -20,15 +20,18 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
   if (!has_pending_error(now)) return false;
   const bool dumps = is_due(ErrorKind::clutch_dump);
   const double revs = dumps ? kDumpSpeed : kJerkSpeed;
+  const bool by_foot = intent().motion == Motion::bite && intent().brake;
+  if (by_foot && !is_due(ErrorKind::rollback)) return false;  // only after the brake is off
   if (feet_.hand_brake.value() > 0.05 && !is_due(ErrorKind::rollback) && !is_due(ErrorKind::stall)) {
     // Rev up before releasing the handbrake, because otherwise the car would roll back on a hill.
     feet_.throttle.move_to(kHurryThrottle, 4.0);
     if (now.car.engine_speed >= revs) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     return true;
   }
-  if (feet_.hand_brake.value() > 0.05) {
-    // Release the handbrake before the clutch bites.
+  if (is_held()) {
+    // Release the brake before the clutch bites.
     if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
+    feet_.brake.move_to(0.0, kBrakeRate);
     hold_revs(launch_speed_);
     feet_.clutch.move_to(0.5 * (car_.clutch.bite + kClutchDown), kClutchRateToBite);
     rolls_since_ = now.time();

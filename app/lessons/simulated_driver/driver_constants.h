@@ -46,6 +46,8 @@ inline constexpr double kPauseAfterMiss = 3.8;  // [s] time without a new attemp
 inline constexpr double kClutchDown = 0.8;      // [1] pedal position that lessons define as down
 inline constexpr double kMinHillSlope = 0.02;   // [rad]
 inline constexpr double kMaxStandingSpeed = 0.3;  // [m/s]
+inline constexpr double kMinBumpSpeed = 2.5;      // [m/s] a car that rolls faster in gear starts its engine
+inline constexpr double kCreepBrake = 0.12;       // [1] brake that slows a car which creeps down a hill
 inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
 inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] slightly above kMinDrivingSpeed of the assessment (4 m/s)
 // [m/s] Lowest speed for the deliberate errors `coasting` and `too_slow`. It is high enough that the car still counts

@@ -9,11 +9,13 @@ namespace gearshift::lessons {
 
 void SimulatedDriver::set_brakes(const vehicle::DriveSample& now) {
   const LessonIntent& wants = intent();
-  if (wants.brake) feet_.brake.move_to(wants.at_once ? brake_effort_ : *wants.brake, 2.0 * kBrakeRate);
+  const bool lets_roll = wants.motion == Motion::bite && is_due(ErrorKind::rollback);
+  if (wants.brake && !lets_roll) feet_.brake.move_to(wants.at_once ? brake_effort_ : *wants.brake, 2.0 * kBrakeRate);
   const bool has_no_patience = wants.motion == Motion::bite && has_pending_error(now);
   if (!wants.hand_brake || has_no_patience) return;
   const bool hill = std::abs(lesson_.start.slope) > kMinHillSlope && !has_pending_error(now);
-  const bool may = *wants.hand_brake > 0.0 || wants.motion == Motion::stay || !hill || feels_bite(now);
+  const bool may = *wants.hand_brake > 0.0 || wants.motion == Motion::stay || !hill || feels_bite(now) ||
+                   feet_.brake.value() > kStopBrake || is_pulled_downhill(now.car.gear);
   if (may) feet_.hand_brake.move_to(*wants.hand_brake, kHandBrakeRate);
 }
 
@@ -35,7 +37,11 @@ void SimulatedDriver::drive(const vehicle::DriveSample& now) {
       drive_on(now);
       break;
     case Motion::bite:
-      release(now);
+      if (now.car.running) {
+        release(now);
+      } else {
+        feet_.clutch.move_to(0.0, kClutchRateToBite);
+      }
       break;
     case Motion::creep:
       creep(now);
@@ -156,7 +162,7 @@ void SimulatedDriver::launch(const vehicle::DriveSample& now) {
   } else {
     hold_revs(target);
   }
-  const bool held = feet_.hand_brake.value() > 0.05;
+  const bool held = is_held();
   const bool labours = !intent().no_throttle && perceived_speed_ < (1.0 - skill_.max_bite_drop) * target && !held;
   if ((held && feels_bite(now)) || (labours && now.car.gear != haptics::kNeutralGear)) return feet_.clutch.hold();
   if (held && intent().motion == Motion::go && !intent().hand_brake) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
@@ -165,8 +171,20 @@ void SimulatedDriver::launch(const vehicle::DriveSample& now) {
                        idle_stroke ? kClutchRateToBite : kClutchRateLaunch * release_rate_ / kClutchRateThroughBite);
 }
 
+// True if a brake holds the car while the clutch comes up.
+bool SimulatedDriver::is_held() const noexcept {
+  return feet_.hand_brake.value() > 0.05 || (intent().motion == Motion::bite && feet_.brake.value() > 0.05);
+}
+
+// True if the slope pulls the car in the direction of this gear.
+bool SimulatedDriver::is_pulled_downhill(int gear) const noexcept {
+  const double towards = gear == haptics::kReverseGear ? lesson_.start.slope : -lesson_.start.slope;
+  return gear != haptics::kNeutralGear && towards > kMinHillSlope;
+}
+
 void SimulatedDriver::creep(const vehicle::DriveSample& now) {
-  feet_.brake.move_to(0.0, kBrakeRate);
+  const bool runs_away = is_pulled_downhill(now.car.gear) && std::abs(now.car.road_speed) > 1.2 * intent().speed;
+  feet_.brake.move_to(runs_away ? kCreepBrake : 0.0, kBrakeRate);
   if (now.time() < release_at_ || spoil_launch(now)) return;
   if (intent().no_throttle) {
     feet_.throttle.move_to(0.0, kLiftRate);

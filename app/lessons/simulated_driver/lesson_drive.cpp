@@ -21,6 +21,7 @@ class Drive {
     action_.hand.position = haptics::rest_position(drive_.gate(), config.lesson.start.gear);
     action_.controls.ignition = config.lesson.start.running;
     action_.controls.pedals.hand_brake = config.lesson.start.hand_brake;
+    action_.controls.pedals.brake = config.lesson.start.brake;
     action_.controls.slope = config.lesson.start.slope;
   }
 

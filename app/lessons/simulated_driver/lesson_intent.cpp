@@ -9,11 +9,13 @@ constexpr double kMaxStopTarget = 0.4;  // [m/s] a step with a target speed belo
 constexpr double kWalkingSpeed = 1.3;   // [m/s]
 
 Motion motion_of(const DriveCondition& c) {
+  if (c.brake_above && (c.clutch_torque_above || c.clutch_below)) return Motion::bite;
   if (c.brake_above) return Motion::slow;
   if (c.speed_below && *c.speed_below < kMaxStopTarget) return Motion::stop;
   if ((c.speed_above && c.speed_below) || c.rolled_back_above) return Motion::creep;
   if (c.speed_below) return Motion::slow;
   if (c.clutch_torque_above && c.hand_brake_above) return Motion::bite;
+  if (c.clutch_above && c.speed_above) return Motion::stay;  // let the car roll
   const bool up = c.clutch_below || c.clutch_locked == true;
   if (up || c.shift_light == true || c.engine_above || c.distance_above || (c.speed_above && *c.speed_above > 0.0))
     return Motion::go;
@@ -32,7 +34,7 @@ LessonIntent intent_of(const Lesson& lesson, std::size_t step) {
   LessonIntent intent;
   intent.motion = motion_of(c);
   intent.speed = creep_speed(c);
-  intent.no_throttle = c.throttle_below.has_value();
+  intent.no_throttle = c.throttle_below || (intent.motion == Motion::bite && c.brake_above);
   intent.clutch_down = c.clutch_above && intent.motion == Motion::stay;
   intent.blip = c.engine_above && c.clutch_locked == true && c.gear;
   intent.accelerates =

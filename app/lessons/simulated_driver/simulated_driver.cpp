@@ -24,6 +24,7 @@ SimulatedDriver::SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& c
       has_run_(lesson.start.running) {
   for (std::size_t i = 0; i < lesson.steps.size(); ++i) intents_.push_back(intent_of(lesson_, i));
   feet_.hand_brake.place(lesson.start.hand_brake);
+  feet_.brake.place(lesson.start.brake);
   release_rate_ = kClutchRateThroughBite;
   launch_speed_ = kLaunchSpeed;
   brake_effort_ =
@@ -125,13 +126,18 @@ double SimulatedDriver::shaft_speed_in(const vehicle::DriveSample& now, int gear
 
 // Turns the key if the lesson requires it or the engine has stalled. Returns true while the engine is being started.
 bool SimulatedDriver::handle_restart(const vehicle::DriveSample& now) {
-  if (intent().ignition == false) ignition_ = false;
+  if (intent().ignition) ignition_ = *intent().ignition;
   const bool wanted = intent().start || (has_run_ && intent().ignition != false);
   if (now.car.running || !wanted) {
     if (starter_ && (!wanted || now.car.engine_speed > 0.8 * car_.engine.idle)) starter_ = false;
     return starter_;
   }
   if (has_run_) mark_done(ErrorKind::stall);
+  const bool bumps = !has_run_ && now.car.gear >= 1 && now.car.road_speed > kMinBumpSpeed;
+  if (bumps) {
+    feet_.clutch.move_to(0.0, kClutchRateToBite);
+    return true;
+  }
   shifting_ = false;
   lug_gear_ = haptics::kNeutralGear;
   feet_.throttle.move_to(0.0, kLiftRate);

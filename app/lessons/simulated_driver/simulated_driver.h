@@ -95,6 +95,8 @@ class SimulatedDriver {
   void set_brakes(const vehicle::DriveSample& now);
   void drive_on(const vehicle::DriveSample& now);
   void creep(const vehicle::DriveSample& now);
+  bool is_held() const noexcept;
+  bool is_pulled_downhill(int gear) const noexcept;
   void slow_down(const vehicle::DriveSample& now);
   void stop(const vehicle::DriveSample& now);
   void release(const vehicle::DriveSample& now);

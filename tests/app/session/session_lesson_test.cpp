@@ -73,6 +73,7 @@ const CoachView& drive_as_person(Session& session) {
   DriveSample sample;
   sample.controls.ignition = config.lesson.start.running;
   sample.controls.pedals.hand_brake = config.lesson.start.hand_brake;
+  sample.controls.pedals.brake = config.lesson.start.brake;
   for (int i = 0; i < 120'000 && session.coach().view().phase == LessonPhase::driving; ++i) {
     session.advance(1e-3);
     sample.lever = session.shown();
@@ -115,6 +116,31 @@ TEST_CASE("a lesson on a sequential gate takes a gate with a slot for each gear,
 
   choice.gate.clear();  // the car's own gate
   CHECK(Session(choice).message().empty());
+}
+
+TEST_CASE(
+    "on a slope the instructor holds the foot brake until the learner has pressed it as far, and then never again") {
+  LessonRig rig;
+  Session session(rig.choice("hill_start_with_foot_brake", "grip"));
+  session.apply(BeginLesson{});
+  const auto press = [&](double brake) {
+    DriverControls feet;
+    feet.pedals.clutch = 1.0;
+    feet.pedals.brake = brake;
+    HandTarget hand;
+    hand.position = session.shown().lever;
+    session.lever().set_driver(hand, feet);
+    go(session, 0.5);
+    return session.car().pedals.brake;
+  };
+  CHECK(press(0.0) == doctest::Approx(0.5));
+  CHECK(press(0.4) == doctest::Approx(0.5));
+  CHECK(session.car().road_speed == 0.0);
+  CHECK(press(0.6) == doctest::Approx(0.6));
+  CHECK(press(0.4) == doctest::Approx(0.4));
+  CHECK(session.car().road_speed == 0.0);
+  CHECK(press(0.0) == 0.0);
+  CHECK(session.car().road_speed < -0.1);
 }
 
 TEST_CASE("a competent driver passes a lesson in the running session; run, shifts and recording are saved") {

@@ -377,6 +377,82 @@ void howled_up_the_hill(ScriptedDrive& d) {
   Able{d}.accelerate_to(12.0);
 }
 
+void rolled_down_in_neutral(ScriptedDrive& d) {
+  honest::foot_for_hand_brake(d);
+  d.press(d.feet.pedals.brake, 0.0, 0.3);
+  d.wait(15.0);
+}
+
+void rode_the_brake(ScriptedDrive& d) {
+  Able{d}.slow_to(29.0);
+  Able{d}.shift_with_blip(2);
+  d.press(d.feet.pedals.brake, 0.12, 0.3);
+  d.wait(12.0);
+}
+
+void through_the_bend_in_fourth(ScriptedDrive& d) {
+  Able{d}.slow_to(44.0);
+  d.press(d.feet.pedals.throttle, 0.2, 0.3);
+  d.wait(20.0);
+}
+
+void through_the_bend_on_the_clutch(ScriptedDrive& d) {
+  Able{d}.lift();
+  d.clutch_down();
+  d.lever(3);
+  d.wait(20.0);
+}
+
+void hesitated_in_the_gap(ScriptedDrive& d) {
+  d.pause = 4.0;
+  honest::away_in_time(d);
+}
+
+void took_a_breath_after_the_stall(ScriptedDrive& d) {
+  d.pause = 9.0;
+  honest::stalled_in_a_junction(d);
+}
+
+void changed_feet_before_the_bite(ScriptedDrive& d) {
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.pedals.brake, 0.6, 0.2);
+  d.press(d.feet.pedals.brake, 0.0, 0.2);
+  d.wait(1.6);
+  Able{d}.launch();
+  Able{d}.accelerate_to(11.0, 0.6);
+}
+
+void rolled_forward_before_reversing(ScriptedDrive& d) {
+  d.clutch_down();
+  d.wait(2.0);
+  d.lever(kReverseGear);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+  d.wait(4.0);
+}
+
+void let_it_run_backwards(ScriptedDrive& d) {
+  d.clutch_down();
+  d.wait(2.0);
+  d.lever(kReverseGear);
+  honest::foot_for_hand_brake(d);
+  d.press(d.feet.pedals.brake, 0.0, 0.3);
+  d.wait(8.0);
+}
+
+void parked_in_neutral(ScriptedDrive& d) {
+  d.press(d.feet.pedals.brake, 0.6, 0.3);
+  d.feet.ignition = false;
+  d.wait(1.0);
+  d.press(d.feet.pedals.brake, 0.0, 1.0);
+  d.wait(5.0);
+}
+
+void bumped_with_the_starter(ScriptedDrive& d) {
+  d.clutch_down();
+  Able{d}.start_engine();
+}
+
 struct Cheat {
   const char* lesson;
   void (*drive)(ScriptedDrive&);
@@ -389,6 +465,18 @@ constexpr Cheat kCheats[] = {
     {"bite_point", coasted_instead_of_creeping, LessonEnd::aborted, "coasted instead of creeping"},
     {"bite_point", first_creep_left_out, LessonEnd::left, "first creep left out"},
     {"moving_off", moved_off_once, LessonEnd::left, "moved off once instead of twice"},
+    {"stop_and_go", moved_off_once, LessonEnd::left, "moved off once instead of three times"},
+    {"hill_start_with_foot_brake", changed_feet_before_the_bite, LessonEnd::aborted, "feet changed before the bite"},
+    {"downhill_start", rolled_down_in_neutral, LessonEnd::aborted, "rolled down in neutral"},
+    {"engine_braking", rode_the_brake, LessonEnd::left, "rode the brake"},
+    {"down_before_a_bend", through_the_bend_in_fourth, LessonEnd::aborted, "through the bend in fourth"},
+    {"down_before_a_bend", through_the_bend_on_the_clutch, LessonEnd::aborted, "through the bend with the clutch down"},
+    {"away_in_time", hesitated_in_the_gap, LessonEnd::done, "hesitated in the gap"},
+    {"stalled_in_a_junction", took_a_breath_after_the_stall, LessonEnd::done, "took a breath after the stall"},
+    {"reverse_uphill", rolled_forward_before_reversing, LessonEnd::aborted, "rolled forward before reversing"},
+    {"reverse_downhill", let_it_run_backwards, LessonEnd::aborted, "let it run backwards"},
+    {"parking_in_gear", parked_in_neutral, LessonEnd::aborted, "parked in neutral"},
+    {"bump_start", bumped_with_the_starter, LessonEnd::aborted, "bumped with the starter"},
     {"up_through_the_gears", up_with_one_press, LessonEnd::left, "up with one press of the clutch"},
     {"down_through_the_gears", down_with_one_press, LessonEnd::left, "down with one press of the clutch"},
     {"down_through_the_gears", down_through_neutral, LessonEnd::left, "down through neutral"},

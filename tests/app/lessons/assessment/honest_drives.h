@@ -130,10 +130,10 @@ inline void reverse(ScriptedDrive& d) {
   a.accelerate_to(11.0);
 }
 
-// [N m] The clutch torque that keeps the car from rolling back in first gear.
-inline double hill_torque(const ScriptedDrive& d) {
+// [N m] The clutch torque that keeps the car from rolling down the slope in this gear.
+inline double hill_torque(const ScriptedDrive& d, int gear = 1) {
   const double weight = 9.81 * d.car.body.mass * std::sin(d.lesson.start.slope);
-  return weight / (vehicle::shaft_per_road(d.car, 1) * d.car.gearbox.efficiency);
+  return std::abs(weight / (vehicle::shaft_per_road(d.car, gear) * d.car.gearbox.efficiency));
 }
 
 // Releases the clutch until it transmits enough torque, and only then releases the handbrake.
@@ -177,6 +177,154 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   d.feet.pedals.brake = 0.0;
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);
+}
+
+inline void stop_and_go(ScriptedDrive& d) {
+  into_first(d);
+  for (int i = 0; i < 3; ++i) {
+    Able{d}.launch();
+    Able{d}.accelerate_to(9.0);
+    Able{d}.stop();
+  }
+}
+
+// Changes from the foot brake to the throttle only when the clutch holds the car.
+inline void hill_start_on_the_foot_brake(ScriptedDrive& d) {
+  Able a{d};
+  d.press(d.feet.pedals.brake, 0.6, 0.2);
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
+  d.until(
+      [&] {
+        d.feet.pedals.clutch -= 0.1e-3;
+        return d.now().clutch_torque > 1.05 * hill_torque(d);
+      },
+      5.0);
+  d.press(d.feet.pedals.brake, 0.0, 0.15);
+  a.launch_from_bite();
+  a.accelerate_to(11.0, 0.6);
+}
+
+inline void foot_for_hand_brake(ScriptedDrive& d) {
+  d.press(d.feet.pedals.brake, 0.4, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+}
+
+inline void stop_with_hand_brake(ScriptedDrive& d) {
+  Able{d}.stop();
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
+}
+
+inline void downhill_start(ScriptedDrive& d) {
+  d.clutch_down();
+  d.lever(1);
+  foot_for_hand_brake(d);
+  d.press(d.feet.pedals.brake, 0.0, 0.3);
+  d.until([&] { return d.km_per_h() > 4.0; });
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.3);
+  d.press(d.feet.pedals.clutch, 0.0, 1.5);
+  d.until([&] { return d.km_per_h() > 9.2; });
+  d.wait(1.2);
+  stop_with_hand_brake(d);
+}
+
+inline void engine_braking(ScriptedDrive& d) {
+  Able{d}.slow_to(29.0);
+  Able{d}.shift_with_blip(2);
+  d.wait(9.0);
+  Able{d}.stop();
+}
+
+inline void down_before_a_bend(ScriptedDrive& d) {
+  Able a{d};
+  a.slow_to(44.0);
+  a.shift_with_blip(3);
+  d.press(d.feet.pedals.throttle, 0.15, 0.3);
+  d.until([&] { return d.now().distance > 285.0; });
+  a.accelerate_to(61.0);
+}
+
+inline void on_call(ScriptedDrive& d) {
+  d.until([&] { return d.run.view().prompt.starts_with("Go!"); });
+  d.wait(0.8 + d.pause);
+}
+
+inline void away_in_time(ScriptedDrive& d) {
+  into_first(d);
+  for (int i = 0; i < 2; ++i) {
+    on_call(d);
+    Able{d}.launch(1800.0);
+    Able{d}.accelerate_to(15.5, 0.6);
+    Able{d}.stop();
+  }
+}
+
+inline void stalled_in_a_junction(ScriptedDrive& d) {
+  d.wait(0.8 + d.pause);
+  d.clutch_down();
+  Able{d}.start_engine();
+  Able{d}.launch();
+  Able{d}.accelerate_to(12.5);
+}
+
+// At walking pace, with the clutch at the bite point.
+inline void reverse_uphill(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  d.wait(2.0);
+  d.lever(haptics::kReverseGear);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
+  const auto creep = [&](double rate) {
+    a.hold_revs(1500.0);
+    d.feet.pedals.clutch += rate * 1e-3;
+  };
+  d.until([&] { return creep(-0.1), d.now().clutch_torque > 1.05 * hill_torque(d, haptics::kReverseGear); }, 5.0);
+  const double begun = d.time(), from = d.now().distance;
+  d.until([&] {
+    creep(0.0);
+    d.feet.pedals.hand_brake = std::max(0.0, 1.0 - (d.time() - begun) / 0.3);
+    return d.feet.pedals.hand_brake == 0.0;
+  });
+  d.until([&] { return creep(d.km_per_h() > -4.0 ? -0.06 : 0.12), from - d.now().distance > 5.2; });
+  d.feet.pedals.throttle = 0.0;
+  stop_with_hand_brake(d);
+}
+
+inline void reverse_downhill(ScriptedDrive& d) {
+  d.clutch_down();
+  d.wait(2.0);
+  d.lever(haptics::kReverseGear);
+  foot_for_hand_brake(d);
+  const double from = d.now().distance;
+  d.until([&] {
+    d.feet.pedals.brake = std::clamp(0.09 - 0.04 * (d.km_per_h() + 4.0), 0.0, 0.4);
+    return from - d.now().distance > 5.2;
+  });
+  stop_with_hand_brake(d);
+}
+
+inline void parking_in_gear(ScriptedDrive& d) {
+  d.press(d.feet.pedals.brake, 0.6, 0.3);
+  d.feet.ignition = false;
+  d.clutch_down();
+  d.wait(1.0);
+  d.lever(haptics::kReverseGear);
+  d.press(d.feet.pedals.clutch, 0.0, 0.6);
+  d.press(d.feet.pedals.brake, 0.0, 1.0);
+  d.wait(2.5);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
+}
+
+inline void bump_start(ScriptedDrive& d) {
+  d.feet.ignition = true;
+  d.clutch_down();
+  d.lever(2);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+  d.until([&] { return d.km_per_h() > 12.5; });
+  d.press(d.feet.pedals.clutch, 0.0, 0.7);
+  d.until([&] { return d.now().running && d.km_per_h() > 20.5; });
+  stop_with_hand_brake(d);
 }
 
 // Releases the throttle 0.9 s after the signal and brakes after 1.0 s, the reaction time that driving schools assume.
@@ -376,13 +524,24 @@ inline constexpr Honest kHonest[] = {
     {"start_and_stop", start_and_stop_gently},
     {"bite_point", bite_point},
     {"moving_off", moving_off},
+    {"stop_and_go", stop_and_go},
     {"up_through_the_gears", up_through_the_gears},
     {"down_through_the_gears", down_through_the_gears},
     {"down_through_the_gears", down_without_a_blip},
     {"reverse", reverse},
     {"hill_start", hill_start},
     {"hill_start", hill_start_with_the_foot_brake},
+    {"hill_start_with_foot_brake", hill_start_on_the_foot_brake},
+    {"downhill_start", downhill_start},
+    {"engine_braking", engine_braking},
+    {"down_before_a_bend", down_before_a_bend},
     {"emergency_stop", emergency_stop},
+    {"away_in_time", away_in_time},
+    {"stalled_in_a_junction", stalled_in_a_junction},
+    {"reverse_uphill", reverse_uphill},
+    {"reverse_downhill", reverse_downhill},
+    {"parking_in_gear", parking_in_gear},
+    {"bump_start", bump_start},
     {"skip_shifts", skip_shifts},
     {"eco_driving", eco_driving},
     {"rev_matching", rev_matching},

@@ -514,4 +514,36 @@ TEST_CASE("a lesson that needs an engine beyond the car's red line is rejected i
         }).starts_with("lesson fast asks to shift up from 5000 rpm"));
   CHECK(refusal([](Lesson& l) { l.start.gear = 1, l.start.speed = 30.0; }).starts_with("lesson fast starts at "));
   CHECK(refusal([&](Lesson& l) { l.steps[1].until.engine_above = rpm(4000.0); }).empty());
+  // At 25 m/s the engine would turn 17 rad/m in third: 1.29 * 4 / 0.303, that is 4066 rpm; in second 6146 rpm.
+  const auto at_speed = [](int gear) {
+    return [gear](Lesson& l) { l.steps[1].until = in_gear(gear), l.steps[1].until.speed_above = 25.0; };
+  };
+  CHECK(refusal(at_speed(3)).empty());
+  CHECK(refusal(at_speed(2)) ==
+        "lesson fast asks in step 2 for 6146 rpm, but the red line of the car \"slow\" is at 4750; choose another car");
+}
+
+TEST_CASE("a lesson that needs more speed than the car has is rejected in the car's unit; prompts have its unit, too") {
+  const ConstructedShift shift;
+  CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");  // 181 km/h
+  Lesson lesson = shift_lesson();
+  lesson.key = "fast";
+  lesson.steps[0].prompt = "Reach 200 km/h.";
+  lesson.steps[0].until = {};
+  lesson.steps[0].until.speed_above = 200.0 / 3.6;
+  const std::string rest = "; choose another car";
+  const auto refusal = [&] {
+    try {
+      LessonRun(lesson, car, shift.gate, {});
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal() == "lesson fast asks in step 1 for 200 km/h, but the car \"hatchback\" reaches 181 km/h" + rest);
+  car.speed_unit = SpeedUnit::mph;
+  CHECK(refusal() == "lesson fast asks in step 1 for 124 mph, but the car \"hatchback\" reaches 112 mph" + rest);
+  lesson.steps[0].until.speed_above = 100.0 / 3.6;
+  lesson.steps[0].prompt = "Reach 100 km/h.";
+  CHECK(LessonRun(lesson, car, shift.gate, {}).view().prompt == "Reach 62 mph.");
 }

@@ -50,6 +50,8 @@ constexpr Hostile kHostile[] = {
     {"patience_of_a_saint", ":12: patience_s = 3600: must be between 1 and 60"},
     {"pedal_beyond", ":12: clutch_above = 1.5: must be between 0 and 1"},
     {"reverse_at_speed", ":8: speed_km_per_h = 10: must be 0 in gear R"},
+    {"stalls_at_once",
+     ":8: gear = \"1\": must be \"N\" if the car stands and the engine runs, or it would stall at once"},
     {"rolling_engine_off", ":8: speed_km_per_h = 10: must be 0 if the engine is not running"},
     {"shift_band_of_nobody", ":5: shift_band = \"tractor\": must be one of car"},
     {"shift_band_upside_down", ":4: shift_from_rpm = 3000: must be smaller than shift_to_rpm"},
@@ -109,6 +111,7 @@ gear = "2"
 speed_km_per_h = 36
 slope_percent = 10
 hand_brake = 0.5
+brake = 0.25
 running = true
 
 [[step]]
@@ -123,6 +126,7 @@ guide_to = "4"
 [step.until]
 ignition = true
 running = false
+cranking = false
 clutch_locked = true
 shift_light = false
 braked = true
@@ -176,6 +180,7 @@ TEST_CASE("every key is read and converted to SI units") {
   CHECK(lesson.start.speed == doctest::Approx(10.0));
   CHECK(std::tan(lesson.start.slope) == doctest::Approx(0.1));
   CHECK(lesson.start.hand_brake == 0.5);
+  CHECK(lesson.start.brake == 0.25);
   CHECK(lesson.fails_on == std::vector<ErrorKind>{ErrorKind::stall, ErrorKind::slow_step});
   CHECK(lesson.counted == std::vector<ErrorKind>{ErrorKind::jerk});
   CHECK(lesson.text == kWhole);
@@ -199,6 +204,7 @@ TEST_CASE("every key is read and converted to SI units") {
   const DriveCondition& c = lesson.steps[0].until;
   CHECK(c.ignition == true);
   CHECK(c.running == false);
+  CHECK(c.cranking == false);
   CHECK(c.clutch_locked == true);
   CHECK(c.shift_light == false);
   CHECK(c.braked == true);
@@ -219,6 +225,19 @@ TEST_CASE("every key is read and converted to SI units") {
   CHECK(c.rolled_back_above == 2.0);
   CHECK(c.held == 1.5);
   CHECK_FALSE(c.gear.has_value());
+}
+
+// 1 mph is 1.609344 km/h.
+TEST_CASE("a text in miles has every speed converted and nothing else") {
+  const auto miles = [](std::string_view text) { return text_in_unit(text, SpeedUnit::mph); };
+  CHECK(miles("Slow down to 55 km/h in fifth.") == "Slow down to 34 mph in fifth.");
+  CHECK(miles("creep at 3 to 6 km/h for two seconds") == "creep at 2 to 4 mph for two seconds");
+  CHECK(miles("In 2, at 30, 50 and 70 km/h, then 8.5 km/h") == "In 2, at 19, 31 and 43 mph, then 5 mph");
+  CHECK(miles("Accelerate to 2200 rpm in first.") == "Accelerate to 2200 rpm in first.");
+  CHECK(miles("at walking pace, in km/h") == "at walking pace, in mph");
+  CHECK(miles(" km/h") == " mph");
+  CHECK(miles("1.2.3 km/h") == "1.2 mph");
+  CHECK(text_in_unit("55 km/h", SpeedUnit::km_per_h) == "55 km/h");
 }
 
 TEST_CASE("shift_to makes three steps: clutch down, which may be skipped, the gear, and clutch up") {

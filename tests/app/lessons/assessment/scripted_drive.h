@@ -43,6 +43,7 @@ struct ScriptedDrive {
         goal_(lesson.start.gear) {
     feet.ignition = lesson.start.running;
     feet.pedals.hand_brake = lesson.start.hand_brake;
+    feet.pedals.brake = lesson.start.brake;
     feet.slope = lesson.start.slope;
     haptics::LeverInput in;
     in.position = in.proxy = at_;

@@ -54,6 +54,14 @@ TEST_CASE("a lesson goes through the phases offered, driving and over; cycles co
   CHECK(coach.view().result->end == LessonEnd::done);
   CHECK(coach.guided_gear() == kNeutralGear);
 
+  Lesson fast = bench.config.lessons[0];
+  fast.goal = "Reach 100 km/h.";
+  coach.offer(fast);
+  coach.set_speed_unit(SpeedUnit::mph);
+  CHECK(coach.view().goal == "Reach 62 mph.");
+  coach.offer(fast);
+  CHECK(coach.view().goal == "Reach 62 mph.");
+
   coach.dismiss_lesson();
   CHECK(coach.view().phase == LessonPhase::none);
   CHECK(coach.view().lesson.empty());

@@ -63,15 +63,15 @@ inline CoachState offered(std::string_view key = "hill_start") {
   return coach;
 }
 
-// A lesson in its third step, with two errors so far.
+// A lesson in its third step (its last if it has two), with two errors so far.
 inline CoachState driven(std::string_view key = "hill_start") {
   CoachState coach = offered(key);
   const lessons::Lesson lesson = shipped_lesson(key);
   coach.phase = lessons::LessonPhase::driving;
-  coach.now.step = 2;
+  coach.now.step = std::min<std::size_t>(2, lesson.steps.size() - 1);
   coach.now.steps = lesson.steps.size();
-  coach.now.prompt = lesson.steps[2].prompt;
-  coach.now.hint = lesson.steps[2].hint;
+  coach.now.prompt = lesson.steps[coach.now.step].prompt;
+  coach.now.hint = lesson.steps[coach.now.step].hint;
   coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.",
                         "The engine stalled: it fell from 640 rpm within a second."};
   return coach;
