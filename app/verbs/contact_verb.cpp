@@ -46,7 +46,7 @@ struct ContactArguments {
   std::optional<int> delay;
   std::string hold;
   std::string hand = "all";
-  std::vector<double> push{4.0, 30.0}, speed{0.1, 1.0};
+  std::vector<double> push, speed{0.1, 1.0};
   std::optional<double> place;
   double jitter = 0.1, plant_error = 0.05;
   int runs = 100;
@@ -55,7 +55,8 @@ struct ContactArguments {
   std::string svg_file;
 };
 
-// A simulated lever with the measured properties of a calibrated stick.
+// A simulated lever with the measured properties of a calibrated stick. Its dry friction is not measured, so it is left
+// out: a real lever ripples less.
 haptics::SimulatedLeverConfig lever_like(const haptics::DeviceCalibration& calibration, double period) {
   const haptics::DeviceSpec spec = haptics::spec_of(calibration, period);
   if (spec.delay > haptics::kMaxSimulatedDelay)
@@ -103,6 +104,14 @@ void take_wall(const ContactArguments& arguments, haptics::HapticConfig& config)
   if (hold != holds.end()) config.contact.hold = static_cast<haptics::ContactHold>(hold - holds.begin());
 }
 
+// The chosen pushes, or the usual ones as far as the motors can hold them.
+std::pair<double, double> push_of(const ContactArguments& arguments, const lab::Campaign& usual) {
+  constexpr double kHeld = 0.95;  // [1] of the motors' force
+  if (!arguments.push.empty()) return std::minmax(arguments.push.front(), arguments.push.back());
+  const double max = std::min(usual.max_push, kHeld * usual.contact.lever.actuator.peak_force);
+  return {usual.min_push / usual.max_push * max, max};
+}
+
 lab::ContactQuestion question_of(const ContactArguments& arguments) {
   const haptics::Preset preset = haptics::read_preset(base::find_asset("presets", arguments.preset).string());
   lab::ContactQuestion question;
@@ -113,7 +122,7 @@ lab::ContactQuestion question_of(const ContactArguments& arguments) {
   take_wall(arguments, campaign.contact.haptics);
   if (!arguments.stick.empty()) take_stick(arguments.stick, question);
   if (arguments.delay) campaign.contact.lever.delay = *arguments.delay;
-  std::tie(campaign.least_push, campaign.most_push) = std::minmax(arguments.push.front(), arguments.push.back());
+  std::tie(campaign.min_push, campaign.max_push) = push_of(arguments, campaign);
   std::tie(campaign.slowest, campaign.fastest) = std::minmax(arguments.speed.front(), arguments.speed.back());
   campaign.place = arguments.place;
   campaign.period_jitter = arguments.jitter;
@@ -182,10 +191,10 @@ void add_contact_options(CLI::App& verb, ContactArguments& arguments) {
           "grip's damping and stiffness")
       ->capture_default_str();
   verb.add_option("--push", arguments.push,
-                  "push of the hand after the impact [N]: one value, or the lowest and highest")
+                  "push of the hand after the impact [N]: one value, or the lowest and highest; default: 4 to 30, or "
+                  "what the motors can hold")
       ->expected(1, 2)
-      ->check(number_between(0.1, 1000.0))
-      ->capture_default_str();
+      ->check(number_between(0.1, 1000.0));
   verb.add_option("--speed", arguments.speed, "impact speed [m/s]: one value, or the lowest and highest")
       ->expected(1, 2)
       ->check(number_between(0.01, 2.0))

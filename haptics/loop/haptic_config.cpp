@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,12 @@ constexpr double kMinCounts = 3.0;        // [counts] least depth at which a wal
 constexpr double kMaxCountSpeed = 0.125;  // [m/s] largest change of the observed velocity by one encoder count
 constexpr double kQuietCoarse = 0.2;      // [1] replaces kQuiet where a count changes the observed velocity by more
 constexpr double kFastImpact = 1.0;       // [m/s] the slew limit must follow a contact at this speed
+constexpr double kFastSwing = 10.0;       // [Hz] the reversal limiter may take a faster swing for chatter ...
+constexpr double kHalfSwings = 7.0;       // [1] ... of which it looks at so many half-swings
+constexpr double kSwingAccuracy = 1e-4;   // [1] relative, of the stiffness that this allows
+constexpr NamedHand kHeaviestHand = kNamedHands.back();
+constexpr double kSwingDecay =
+    1.0 / 3.0;  // [1] in this time it must shrink to this fraction; the limiter asks for half
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kCoarseLaw =
     "with so coarse an encoder, the half-sample hold is quiet only if K <= 0.2 m / tau^2, with tau = (delay + 1) T";
@@ -37,6 +44,12 @@ constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.
 constexpr const char* kSpringLaw =
     "on the device's springs of more than m / tau^2, the observer hold is quiet only if K <= 0.5 m / tau^2, with tau = "
     "(delay + 1) T";
+constexpr const char* kSpringDampingLaw =
+    "on the device's springs k, the late half-sample hold adds energy to an impact if k tau^2 > 0.35 m, with tau = "
+    "(delay + 1) T";
+constexpr const char* kSwingLaw =
+    "with the observer hold, a swing above 10 Hz must shrink to a third in seven half-swings at 1.1 K, or the reversal "
+    "limiter softens the wall";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
@@ -87,12 +100,21 @@ bool can_observe(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return observer_bandwidth(period_s(config)) * spec.position_step <= kMaxCountSpeed;
 }
 
+// True if a bare lever on the device's springs swings so fast that the half-sample hold pushes it out of the wall: its
+// late damper acts mostly while the lever leaves.
+bool is_on_fast_spring(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  const double tau = lag(config, spec);
+  return usable_wall_stiffness(spec) * tau * tau > kQuiet * lighter_mass(spec);
+}
+
 // Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the rate or the device's
-// delay.
+// delay, or adds energy because of the device's springs.
 ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
-  const bool suffices = loop_stiffness(config.tuning, spec) <= kQuiet * lighter_mass(spec) / (tau * tau);
+  const double stiffness = loop_stiffness(config.tuning, spec);
+  const bool suffices =
+      stiffness == 0.0 || (stiffness <= kQuiet * lighter_mass(spec) / (tau * tau) && !is_on_fast_spring(config, spec));
   const bool is_observed = !suffices && tau <= kObservedTau && can_observe(config, spec);
   return is_observed ? ContactHold::observer : ContactHold::half_sample;
 }
@@ -214,13 +236,22 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
 }
 
 // Limits the damping of the loop's wall on a device that renders walls itself. The loop's damping is delayed, so it can
-// destabilise a lever in the device's spring, however soft the loop's own wall is.
+// destabilise a lever in the device's spring, however soft the loop's own wall is, and add energy long before that.
 void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                                      const Limiter& limiter) {
   if (!has_device_walls(spec) || admitted.hold == ContactHold::observer) return;
   double damping = admitted.tuning.wall_damping;
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
   limiter.limit(admitted.tuning.wall_damping, damping, &HapticTuning::wall_damping, kFreeLaw);
+  if (is_on_fast_spring(config, spec))
+    limiter.limit(admitted.tuning.wall_damping, 0.0, &HapticTuning::wall_damping, kSpringDampingLaw);
+}
+
+// Leaves the wall to the device's springs where the half-sample hold would add energy on them.
+void limit_to_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                           const Limiter& limiter) {
+  if (admitted.hold == ContactHold::observer || !is_on_fast_spring(config, spec)) return;
+  limiter.limit(admitted.tuning.wall_stiffness, 0.0, &HapticTuning::wall_stiffness, kSpringDampingLaw);
 }
 
 struct StableStiffness {
@@ -254,6 +285,37 @@ StableStiffness stable_stiffness(const HapticConfig& config, const DeviceSpec& s
     });
   }
   return stable;
+}
+
+// True if the swing of a pressed lever is slower than kFastSwing or shrinks to kSwingDecay in time.
+bool has_calm_swing(const AxisModel& axis, const HandImpedance& hand, const ContactLaw& law, double period) {
+  const double stiffness = law.stiffness + hand.stiffness + axis.stiffness;
+  const double omega = std::sqrt(stiffness / (axis.mass + hand.mass));
+  if (omega < 2.0 * std::numbers::pi * kFastSwing) return true;
+  const double cycles = kHalfSwings * std::numbers::pi / (omega * period);
+  return std::pow(spectral_radius(axis, hand, law, period), cycles) <= kSwingDecay;
+}
+
+// Limits the observer hold's stiffness by the swing of the arm, the heaviest listed hand. The observer takes the hand's
+// force for constant, so it hardly damps a heavy hand that swings fast.
+void limit_swing(const HapticConfig& config, const DeviceSpec& spec, ContactLaw law, AdmittedTuning& admitted,
+                 const Limiter& limiter) {
+  if (admitted.hold != ContactHold::observer) return;
+  const auto is_calm = [&](double stiffness) {
+    bool calm = true;
+    law.stiffness = kGainMargin * stiffness;
+    for_each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+      if (named.name == kHeaviestHand.name) calm = calm && has_calm_swing(axis, named.hand, law, period_s(config));
+    });
+    return calm;
+  };
+  double calm = admitted.tuning.wall_stiffness, wild = calm;
+  if (is_calm(calm)) return;
+  for (calm = 0.0; wild - calm > kSwingAccuracy * wild;) {
+    const double middle = 0.5 * (calm + wild);
+    (is_calm(middle) ? calm : wild) = middle;
+  }
+  limiter.limit(admitted.tuning.wall_stiffness, calm, &HapticTuning::wall_stiffness, kSwingLaw, kHeaviestHand.name);
 }
 
 // The feel is evaluated where the hold predicts the proxy, and only the damping outside the walls acts with it.
@@ -292,6 +354,13 @@ void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter pa
   limit->bound += device_part;
   limit->law += "; the device itself renders another " + number_text(device_part) + unit;
   if (limit->bound >= wanted) admitted.limits.erase(limit);
+}
+
+// True if the observer hold, which was to be stiffer than the half-sample hold, is not.
+bool is_softer_than_half_sample(const HapticConfig& config, const DeviceSpec& spec, const AdmittedTuning& admitted) {
+  const double tau = lag(config, spec);
+  return admitted.hold == ContactHold::observer && !is_on_fast_spring(config, spec) &&
+         admitted.tuning.wall_stiffness < kQuiet * lighter_mass(spec) / (tau * tau);
 }
 
 // Admits the tuning with the half-sample hold. Used if the observer hold is selected, but cannot be used on this device
@@ -407,7 +476,11 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }
   limiter.limit(out.tuning.wall_stiffness, stable.max, &HapticTuning::wall_stiffness, kStableLaw, stable.hand);
+  limit_swing(config, spec, wall, out, limiter);
+  if (config.contact.hold == ContactHold::automatic && is_softer_than_half_sample(config, spec, out))
+    return fall_back_to_half_sample(config, device, gate, kSwingLaw, kHeaviestHand.name);
   limit_feel(config, spec, gate, wall, out, limiter);
+  limit_to_device_walls(config, spec, out, limiter);
   add_device_part(out, out.tuning.wall_stiffness, &HapticTuning::wall_stiffness, config.tuning.wall_stiffness,
                   usable_wall_stiffness(spec), " N/m");
   add_device_part(out, out.tuning.wall_damping, &HapticTuning::wall_damping, config.tuning.wall_damping,

@@ -31,7 +31,7 @@ ContactCase drawn(const Campaign& campaign, const haptics::HandImpedance& hand, 
   contact.lever.period_jitter = campaign.period_jitter;
   contact.speed = between(campaign.slowest, campaign.fastest, random);
   contact.phase = unit(random);
-  contact.push = between(campaign.least_push, campaign.most_push, random);
+  contact.push = between(campaign.min_push, campaign.max_push, random);
   contact.place = campaign.place.value_or(unit(random));
   return contact;
 }
@@ -97,6 +97,7 @@ HandOutcome run_hand(const Campaign& campaign, std::size_t hand) {
     out.softest = std::min(out.softest, one.stiffness);
     out.lowered = std::max(out.lowered, one.lowered);
     out.softened += one.lowered > 0;
+    out.saturated += one.saturated;
     out.stopped += one.stopped;
   }
   out.ripple_p95 = quantile(ripple, 0.95);
@@ -141,24 +142,31 @@ double softened_fraction(const std::vector<HandOutcome>& outcomes, int runs) {
   return static_cast<double>(softened) / (static_cast<double>(runs) * static_cast<double>(outcomes.size()));
 }
 
-ImpactEnergy run_impacts(ContactCase contact, int phases) {
+ImpactEnergy run_impacts(ContactCase contact, int phases, const ImpactPlan& plan) {
+  std::mt19937_64 random(plan.seed);
+  const double first_place = plan.seed == 0 ? 0.0 : unit(random);
   contact.push = 0.0;
   contact.duration = 0.3;
   contact.lever.hand = haptics::kBareHand;
+  contact.lever.model_error = contact.lever.period_jitter = 0.0;
   contact.haptics.tuning.aisle_damping = 0.0;
   contact.haptics.tuning.limit_damping = 0.0;
+  const auto from_usual = [](double a, double b) { return std::abs(a - kUsualSpeed) < std::abs(b - kUsualSpeed); };
+  const double impacts = static_cast<double>(phases) * static_cast<double>(plan.speeds.size());
   ImpactEnergy out;
-  for (const double speed : {0.1, 0.3, 0.5, 1.0}) {
+  out.hardness_speed = *std::min_element(plan.speeds.begin(), plan.speeds.end(), from_usual);
+  for (const double speed : plan.speeds) {
     for (int i = 0; i < phases; ++i) {
       contact.speed = speed;
       contact.phase = (i + 0.5) / phases;
-      contact.place = std::fmod(0.618034 * i, 1.0);  // spreads evenly, whatever the phase
+      // A drawn place spreads evenly, whatever the phase.
+      contact.place = plan.place.value_or(std::fmod(first_place + 0.618034 * i, 1.0));
       const ContactResult one = run_contact(contact);
       out.worst_fraction = std::max(out.worst_fraction, one.energy / one.impact);
       out.worst = std::max(out.worst, one.energy);
-      out.mean_fraction += one.energy / one.impact / (4.0 * phases);
+      out.mean_fraction += one.energy / one.impact / impacts;
       out.restitution = std::max(out.restitution, one.restitution);
-      if (speed == 0.3) out.hardness = std::min(out.hardness, one.hardness);
+      if (speed == out.hardness_speed) out.hardness = std::min(out.hardness, one.hardness);
       out.surplus = std::max(out.surplus, one.energy - one.damped);
     }
   }

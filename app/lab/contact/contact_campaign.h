@@ -28,13 +28,13 @@ haptics::HandImpedance any_hand(const std::array<double, 3>& drawn);
 std::vector<ContactHand> random_hands(int count, std::uint64_t seed);
 
 struct Campaign {
-  ContactCase contact;                        // base case; the values below and lever.hand and .seed replace its own
-  double slowest = 0.1, fastest = 1.0;        // [m/s] impact speed
-  double least_push = 4.0, most_push = 30.0;  // [N] push after the contact
-  std::optional<double> place;                // [1] of the wall within an encoder count; empty: drawn
-  double model_error = 0.05;                  // [1]
-  double period_jitter = 0.1;                 // [1]
-  int runs = 400;                             // per hand
+  ContactCase contact;                     // base case; the values below and lever.hand and .seed replace its own
+  double slowest = 0.1, fastest = 1.0;     // [m/s] impact speed
+  double min_push = 4.0, max_push = 30.0;  // [N] push after the contact
+  std::optional<double> place;             // [1] of the wall within an encoder count; empty: drawn
+  double model_error = 0.05;               // [1]
+  double period_jitter = 0.1;              // [1]
+  int runs = 400;                          // per hand
   std::uint64_t seed = 7;
   std::vector<ContactHand> hands = named_hands();
 };
@@ -51,6 +51,7 @@ struct HandOutcome {
   double softest = 1e9;       // [N/m] lowest wall stiffness at the end of a run
   int lowered = 0;            // largest number of stiffness reductions in one run
   int softened = 0;           // number of runs in which the reversal limiter softened the wall
+  int saturated = 0;          // number of runs in which the motors were at their limit in the last 200 ms
   int stopped = 0;            // number of runs in which the guard switched the force off
 };
 
@@ -72,12 +73,20 @@ struct ImpactEnergy {
   double worst = -1e9;           // [J] largest energy supplied by the wall
   double mean_fraction = 0.0;    // [1]
   double restitution = 0.0;      // [1] largest
-  double hardness = 1e9;         // [N/m] smallest rate-hardness at 0.3 m/s
+  double hardness = 1e9;         // [N/m] smallest rate-hardness at hardness_speed
+  double hardness_speed = 0.0;   // [m/s] of the impacts the nearest to 0.3 m/s
   double surplus = -1e9;         // [J] largest energy supplied beyond what the handle dissipated
 };
 
-// Impacts of the handle on the wall without a hand, plant errors or other forces. `phases`: number of impacts at each
-// of the speeds 0.1, 0.3, 0.5 and 1 m/s.
-ImpactEnergy run_impacts(ContactCase contact, int phases);
+inline constexpr double kUsualSpeed = 0.3;  // [m/s]
+struct ImpactPlan {
+  std::vector<double> speeds{0.1, kUsualSpeed, 0.5, 1.0};  // [m/s]
+  std::optional<double> place;                             // [1] as in Campaign
+  std::uint64_t seed = 0;                                  // of the places
+};
+
+// Impacts of the handle on the wall without a hand, model error, jitter or other forces. `phases`: number of impacts at
+// each speed.
+ImpactEnergy run_impacts(ContactCase contact, int phases, const ImpactPlan& plan = {});
 
 }  // namespace gearshift::lab

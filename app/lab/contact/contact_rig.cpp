@@ -21,7 +21,11 @@ constexpr double kWall = 0.005;    // [m] the wall; this near the centre, plane 
 constexpr double kNoForce = 1e-9;  // [N]
 constexpr double kRise = 0.005;    // [s] window of the rate-hardness
 constexpr double kPulseGain = 0.8, kOffWall = 0.030, kMinEntry = 0.03;  // [1], [s], [m/s] of an entry with a pulse
-constexpr double kDepth = 0.003, kSwing = 0.001;   // [m] mean depth and amplitude of the motion in the wall
+constexpr double kMaxDepth = 0.003,
+                 kMaxSwing = 0.001;  // [m] mean depth and amplitude of the motion in the wall, and ...
+constexpr double kDepthForce = 0.48,
+                 kSwingForce = 0.16;               // [1] ... the fraction of the motors' force that each may need
+constexpr double kPressed = 0.2;                   // [s] final part of a contact in which the pressed lever is measured
 constexpr double kSettle = 1.0, kMinWindow = 2.0;  // [s]
 constexpr double kMinPeriods = 4.0;                // [1] of a window
 constexpr double kApproach = 0.015;                // [s] duration of steady motion before the contact
@@ -188,9 +192,10 @@ haptics::AdmittedTuning admitted_wall(const ContactCase& contact) {
 
 namespace {
 
-// The same contact with the tuning that the program admits on this lever, and without what is not the wall's: the
-// reversal limiter and the damping that acts everywhere.
-ContactCase without_limiter(ContactCase contact) {
+// The same contact with the tuning that the program admits on this lever, and without what is not the wall's: errors of
+// the device, the reversal limiter and the damping that acts everywhere.
+ContactCase wall_alone(ContactCase contact) {
+  contact.lever.model_error = contact.lever.period_jitter = 0.0;
   const haptics::AdmittedTuning admitted = admitted_wall(contact);
   contact.haptics.tuning = admitted.tuning;
   contact.haptics.contact.hold = admitted.hold;
@@ -200,14 +205,19 @@ ContactCase without_limiter(ContactCase contact) {
   return contact;
 }
 
-// Amplitude of the push that swings lever and hand in the wall by kSwing. [N]
-double swinging_push(const ContactCase& contact, double frequency) {
+// Depth [m] at which this wall needs `fraction` of the motors' force.
+double depth_at(const ContactCase& contact, double fraction) {
+  return fraction * contact.lever.actuator.peak_force / contact.haptics.tuning.wall_stiffness;
+}
+
+// Amplitude of the push that swings lever and hand in the wall by `swing` [m]. [N]
+double swinging_push(const ContactCase& contact, double swing, double frequency) {
   const haptics::AxisModel& axis = contact.lever.axis_x;
   const haptics::HandImpedance& hand = contact.lever.hand;
   const double omega = 2.0 * std::numbers::pi * frequency;
   const double spring = contact.haptics.tuning.wall_stiffness + axis.stiffness + hand.stiffness;
-  return kSwing * std::abs(std::complex<double>(spring - omega * omega * (axis.mass + hand.mass),
-                                                omega * (axis.damping + hand.damping)));
+  return swing * std::abs(std::complex<double>(spring - omega * omega * (axis.mass + hand.mass),
+                                               omega * (axis.damping + hand.damping)));
 }
 
 // Fits motion and motor force of a run whose hand swings. A force is recorded at the end of the period over which it was
@@ -220,28 +230,34 @@ DynamicStiffness fit_swing(haptics::SimulatedRun& run, double frequency) {
   const double start = run.time();
   haptics::HarmonicFit fit;
   fit.begin(omega, start, length);
+  double cycles = 0.0, saturated = 0.0;
   while (run.time() < start + length - 0.5 * run.period()) {
-    const double force = run.step().f_a.x;
+    const haptics::HapticSnapshot& now = run.step();
+    const double force = now.f_a.x;
+    saturated += (now.flags & haptics::kFlagSaturated) != 0 ? 1.0 : 0.0;
+    cycles += 1.0;
     fit.add(run.time(), {run.lever().true_position().x, force, 0.0});
   }
   const std::complex<double> force = fit.phasor(1).value * std::polar(std::sin(half) / half, half);
   const std::complex<double> z = force / fit.phasor(0).value;
-  return {frequency, z.real(), z.imag() / omega};
+  return {frequency, z.real(), z.imag() / omega, saturated / cycles};
 }
 
 }  // namespace
 
 std::vector<DynamicStiffness> dynamic_stiffness(const ContactCase& wanted, std::span<const double> frequencies) {
-  const ContactCase contact = without_limiter(wanted);
+  const ContactCase contact = wall_alone(wanted);
   const double wall = wall_of(contact), spring = contact.haptics.tuning.wall_stiffness + contact.lever.hand.stiffness;
+  const double depth = std::min(kMaxDepth, depth_at(contact, kDepthForce));
+  const double swing = std::min(kMaxSwing, depth_at(contact, kSwingForce));
   std::vector<DynamicStiffness> found;
   for (const double frequency : frequencies) {
-    SwingingHand hand(wall, kDepth * spring + contact.lever.axis_x.stiffness * (wall + kDepth));
+    SwingingHand hand(wall, depth * spring + contact.lever.axis_x.stiffness * (wall + depth));
     haptics::SimulatedRun run(rig(contact, wall), hand);
     while (run.time() < kSettle) run.step();
     // A whole number of sampling periods per swing.
     hand.frequency = 1.0 / (run.period() * std::round(1.0 / (frequency * run.period())));
-    hand.amplitude = swinging_push(contact, hand.frequency);
+    hand.amplitude = swinging_push(contact, swing, hand.frequency);
     found.push_back(fit_swing(run, hand.frequency));
     found.back().frequency = frequency;
   }
@@ -278,6 +294,7 @@ ContactResult run_contact(const ContactCase& contact) {
     command.push_back(now.commanded.x);
     detector.update(run.loop().published(), events);
     result.stiffness = now.wall_stiffness;
+    result.saturated = result.saturated || (run.time() > end - kPressed && (now.flags & haptics::kFlagSaturated) != 0);
   }
   result.lowered = static_cast<int>(std::count_if(events.begin(), events.end(), [](const haptics::HapticEvent& event) {
     return event.kind == haptics::EventKind::stiffness_lowered;
@@ -286,11 +303,11 @@ ContactResult run_contact(const ContactCase& contact) {
   result.hardness = first.hardness(period);
   result.stopped = run.loop().snapshot().fault == haptics::GuardFault::chatter;
   result.peak = *std::max_element(position.begin(), position.end()) - wall;
-  result.ripple = span(position, samples(0.2));
-  result.force_ripple = span(command, samples(0.2));
+  result.ripple = span(position, samples(kPressed));
+  result.force_ripple = span(command, samples(kPressed));
   result.delivered = mean(motor, samples(0.05));
   result.displayed = result.delivered / (mean(position, samples(0.05)) - wall);
-  result.tremble = rms_change(velocity, samples(0.2), period);
+  result.tremble = rms_change(velocity, samples(kPressed), period);
   return result;
 }
 

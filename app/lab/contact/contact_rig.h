@@ -21,8 +21,8 @@ struct ContactCase {
   double pulse = 0.0;     // [s] decay of a force pulse on each entry into the wall; 0: none, as in the program
 };
 
-// Vibration of a handle above which every finger is taken to feel it [m/s^2]. It is a choice, because the table of ISO
-// 13091-2 was not at hand. Some hands feel a cylinder that they grasp move by less than 0.01 um at 150 to 200 Hz, which is
+// Vibration of a handle at 125 Hz above which every finger is taken to feel it [m/s^2]; at other frequencies fingers feel
+// less, so a broadband rms over it is an upper bound. It is a choice, because the table of ISO 13091-2 was not at hand. Some hands feel a cylinder that they grasp move by less than 0.01 um at 150 to 200 Hz, which is
 // 0.01 m/s^2 (A. J. Brisben, S. S. Hsiao, K. O. Johnson. Detection of Vibration Transmitted Through an Object Grasped in
 // the Hand. 1999).
 inline constexpr double kFingerThreshold = 0.2;
@@ -44,7 +44,8 @@ struct ContactResult {
   double force_ripple = 0.0;  // [N] peak-to-peak commanded force in the last 200 ms
   double stiffness = 0.0;     // [N/m] wall stiffness at the end
   int lowered = 0;            // number of times that the reversal limiter lowered the stiffness
-  bool stopped = false;       // the guard switched the force off because the wall vibrated even after softening
+  bool saturated = false;  // the motors were at their limit in the last 200 ms, so the lever was beyond the wall's hold
+  bool stopped = false;    // the guard switched the force off because the wall vibrated even after softening
 };
 
 ContactResult run_contact(const ContactCase& contact);
@@ -57,10 +58,12 @@ struct DynamicStiffness {
   double frequency = 0.0;  // [Hz]
   double stiffness = 0.0;  // [N/m] Re Z
   double damping = 0.0;    // [N s/m] Im Z / (2 pi frequency)
+  double saturated = 0.0;  // [1] fraction of the cycles in which the motors were at their limit; Z is then too small
 };
 
-// Presses the lever 3 mm into the wall, with the admitted stiffness, and swings it there by 1 mm at each frequency. The
-// reversal limiter is off, because it takes swings above 10 Hz for chatter.
+// Presses the lever 3 mm into the wall, with the admitted stiffness, and swings it there by 1 mm at each frequency; by
+// less if the motors are too weak. Model error and jitter are ignored. The reversal limiter is off, because it takes swings
+// above 10 Hz for chatter.
 std::vector<DynamicStiffness> dynamic_stiffness(const ContactCase& contact, std::span<const double> frequencies);
 
 }  // namespace gearshift::lab

@@ -18,9 +18,11 @@ struct ContactAnswer {
   haptics::AdmittedTuning admitted;
   std::vector<HandOutcome> hands;
   double ripple_p95 = 0.0;  // [m]
-  double softened = 0.0;    // [1] share of the runs in which the reversal limiter softened the wall
-  double stopped = 0.0;     // [1] share of the runs in which the guard switched the force off
+  double softened = 0.0;    // [1] fraction of the runs in which the reversal limiter softened the wall
+  double saturated = 0.0;   // [1] fraction of the runs in which the motors were at their limit at the end
+  double stopped = 0.0;     // [1] fraction of the runs in which the guard switched the force off
   // Impacts and motion are measured without jitter, plant error and the loop's damping outside the wall.
+  ImpactPlan impacts;
   ImpactEnergy impact;
   std::vector<DynamicStiffness> dynamic;  // in a gripping hand
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <doctest/doctest.h>
 
@@ -123,6 +124,110 @@ TEST_CASE("dynamic stiffness of a sampled, held and late spring: K cos(w t) and 
       CHECK(found.damping == doctest::Approx(-held * 1000.0 * std::sin(omega * late) / omega).epsilon(0.03));
     }
   }
+}
+
+TEST_CASE("weak motors and stiff walls: the swing stays within the motors' force, so Z is the closed form there, too") {
+  const double frequencies[] = {2.0, 10.0};
+  for (const auto& [force, stiffness] : {std::pair{8.0, 5000.0}, {31.7, 10000.0}, {3.0, 2000.0}}) {
+    CAPTURE(force);
+    CAPTURE(stiffness);
+    ContactCase contact = spring_on_mass(1000.0, 0, stiffness);
+    contact.lever.axis_x = {0.095, 30.0, 500.0};
+    contact.lever.actuator.peak_force = contact.lever.actuator.continuous_force = force;
+    contact.lever.hand = kGripHand;
+    contact.lever.model_error = contact.lever.period_jitter = 0.05;  // of the device, not of Z
+    for (const DynamicStiffness& found : dynamic_stiffness(contact, frequencies)) {
+      CAPTURE(found.frequency);
+      const double omega = 2.0 * std::numbers::pi * found.frequency, late = 0.0005;
+      CHECK(found.stiffness == doctest::Approx(stiffness * std::cos(omega * late)).epsilon(0.01));
+      CHECK(found.saturated == 0.0);
+    }
+  }
+}
+
+TEST_CASE("a push beyond the motors' force is reported: the lever is then past the wall and still") {
+  Campaign campaign;
+  campaign.contact.lever.actuator.peak_force = campaign.contact.lever.actuator.continuous_force = 8.0;
+  campaign.hands = {{"grip", kGripHand}};
+  campaign.runs = 5;
+  campaign.min_push = campaign.max_push = 20.0;
+  CHECK(run_campaign(campaign)[0].saturated == 5);
+  campaign.min_push = campaign.max_push = 6.0;
+  CHECK(run_campaign(campaign)[0].saturated == 0);
+}
+
+TEST_CASE("impacts are those of the plan: their speeds and place, without the device's errors") {
+  ContactCase contact;
+  const double usual = run_impacts(contact, 5).worst;
+  contact.lever.model_error = contact.lever.period_jitter = 0.3;
+  CHECK(run_impacts(contact, 5).worst == usual);
+  ContactCase one = contact;  // a single impact by hand
+  one.lever = {};
+  one.haptics.tuning.aisle_damping = one.haptics.tuning.limit_damping = 0.0;
+  one.push = 0.0;
+  one.duration = 0.3;
+  one.speed = 0.7;
+  one.phase = 0.5;
+  one.place = 0.4;
+  const ImpactEnergy found = run_impacts(contact, 1, {{0.7}, 0.4});
+  CHECK(found.worst == run_contact(one).energy);
+  CHECK(found.hardness == run_contact(one).hardness);
+  CHECK(found.hardness_speed == 0.7);
+}
+
+TEST_CASE("a wall of the device's springs, wholly or nearly, gives no impact energy") {
+  for (const auto& [delay, springs, wanted] : {std::tuple{5, 3000.0, 3000.0},
+                                               {5, 3000.0, 3200.0},
+                                               {3, 3000.0, 3000.0},
+                                               {3, 5000.0, 5350.0},
+                                               {2, 5000.0, 5350.0},
+                                               {8, 1000.0, 1000.0},
+                                               {8, 1000.0, 1070.0},
+                                               {8, 5000.0, 5800.0},
+                                               {2, 1000.0, 1800.0}}) {
+    CAPTURE(delay);
+    CAPTURE(springs);
+    CAPTURE(wanted);
+    ContactCase contact;
+    contact.lever.delay = delay;
+    contact.lever.device_wall_stiffness = springs;
+    contact.haptics.tuning.wall_stiffness = wanted;
+    const ImpactEnergy impact = run_impacts(contact, 20);
+    CHECK(impact.worst_fraction < 0.0);
+    CHECK(impact.restitution < 0.85);
+    contact.haptics.contact = {ContactHold::half_sample, EnergyControl::none, true, true};  // as the user wants it
+    if (springs >= 3000.0 && delay >= 5) CHECK(run_impacts(contact, 20).worst_fraction > 0.05);
+  }
+}
+
+TEST_CASE("no wall is softened that is admitted, however stiff: the arm's swing bounds it") {
+  for (const auto& [rate, delay] :
+       {std::pair{2000.0, 2}, {2000.0, 3}, {1500.0, 1}, {4000.0, 8}, {1000.0, 1}, {500.0, 0}}) {
+    CAPTURE(rate);
+    CAPTURE(delay);
+    Campaign campaign;
+    campaign.contact.haptics.rate = rate;
+    campaign.contact.haptics.tuning.wall_stiffness = 20000.0;
+    campaign.contact.lever.delay = delay;
+    campaign.hands = {{"arm", kArmHand}, {"heavier", {1.46, 5.1, 273.0}}, {"heaviest", {2.5, 6.0, 250.0}}};
+    campaign.runs = 20;
+    const std::vector<HandOutcome> outcomes = run_campaign(campaign);
+    for (const HandOutcome& outcome : outcomes) CHECK(outcome.softened == 0);
+    // Never softer than what the half-sample hold may show.
+    const AdmittedTuning admitted = admitted_wall(campaign.contact);
+    const double tau = (delay + 1.0) / rate;
+    CHECK(admitted.tuning.wall_stiffness >= 0.999 * std::min(0.35 * 0.086 / (tau * tau), 17000.0));
+  }
+  // Negative control: the observer hold as stiff as 0.58 m / tau^2 allows.
+  Campaign wild;
+  wild.contact.haptics.rate = 4000.0;
+  wild.contact.haptics.contact = {ContactHold::observer, EnergyControl::none, true, true};
+  wild.contact.haptics.tuning.wall_stiffness = 9252.0;
+  wild.contact.haptics.tuning.wall_damping = 26.8;
+  wild.contact.lever.delay = 8;
+  wild.hands = {{"arm", kArmHand}};
+  wild.runs = 5;
+  CHECK(run_campaign(wild)[0].softened == 5);
 }
 
 namespace {
