@@ -79,10 +79,10 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options) {
     });
     add_run(full_lesson, [&] { return lessons::drive_lesson(lesson).duration; });
   }
-  return {row("simulation at 1 kHz", unguided, 1000.0, "tour with lever, hand, gate and guard"),
-          row("simulation at 1 kHz with the driveline", with_car, 400.0,
+  return {row("simulation at 1 kHz", unguided, 3500.0, "tour with lever, hand, gate and guard"),
+          row("simulation at 1 kHz with the driveline", with_car, 2200.0,
               "tour of the hatchback's gate with the clutch down"),
-          row("a whole lesson", full_lesson, 400.0, fmt::format("{}, with simulated driver and coach", kLesson))};
+          row("a whole lesson", full_lesson, 1300.0, fmt::format("{}, with simulated driver and coach", kLesson))};
 }
 
 }  // namespace gearshift::lab

@@ -120,8 +120,8 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Timed unplugged_ratio = ratio_of(unplugged.p50, medians.p50);
   const Timed p50 = timed(medians.p50), p99 = timed(medians.p99);
   const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle includes nine clock reads";
-  std::vector<BenchRow> rows{timed_row("whole cycle p50", p50, 200.0, note),
-                             timed_row("whole cycle p99", p99, 500.0, note),
+  std::vector<BenchRow> rows{timed_row("whole cycle p50", p50, 150.0, note),
+                             timed_row("whole cycle p99", p99, 400.0, note),
                              {"cycle", "cycles in contact", 100.0 * tape.contact_fraction, "%", 30.0, true,
                               "gripping hand, paper's gate, 1 kHz"}};
   for (BenchRow& row : rows) row.design = Design::cycle;

@@ -28,7 +28,7 @@ void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick
       Campaign campaign;
       campaign.contact.haptics.rate = rate;
       campaign.contact.lever.delay = delay;
-      campaign.least_push = campaign.most_push = push;
+      campaign.min_push = campaign.max_push = push;
       campaign.contact.duration = 2.5;
       campaign.slowest = campaign.fastest = speed;
       campaign.runs = quick ? 1 : 5;
@@ -68,7 +68,7 @@ void add_uncertain(std::vector<BenchRow>& rows, const std::string& what, double 
                   "mm",
                   {},
                   false,
-                  "push of 20 N; worst hand: " + worst.hand,
+                  "pushes of 4 to 30 N; worst hand: " + worst.hand,
                   true,
                   {{"K in use", worst.softest, "N/m"}, {"stopped by the guard", 1.0 * worst.stopped, "runs"}}});
 }
