@@ -55,12 +55,17 @@ std::string overview(const std::vector<LearnerStanding>& learners, std::span<con
   return table + "</tbody></table>\n";
 }
 
+// <bdi> keeps a name that is written from right to left from reordering what follows it.
+std::string name_html(const LearnerHistory& history) {
+  return "<bdi>" + base::html_text(history.learner.name) + "</bdi>";
+}
+
 std::string names_with(const std::vector<LearnerStanding>& learners, const std::string& task, Standing standing) {
   std::string names;
   for (const LearnerStanding& one : learners) {
     for (const TaskStanding& each : one.tasks) {
       if (each.task == task && each.standing == standing)
-        names += (names.empty() ? "" : ", ") + one.history->learner.name;
+        names += (names.empty() ? "" : ", ") + name_html(*one.history);
     }
   }
   return names;
@@ -79,7 +84,7 @@ std::string task_overview(const std::vector<LearnerStanding>& learners, std::spa
       });
     };
     table += fmt::format("<tr><td>{}</td>{}<td>{}</td></tr>\n", base::html_text(task_title(lessons, task.task)),
-                         count_cells(count), base::html_text(names_with(learners, task.task, Standing::not_yet)));
+                         count_cells(count), names_with(learners, task.task, Standing::not_yet));
   }
   return table + "</tbody></table>\n";
 }

@@ -197,6 +197,23 @@ TEST_CASE("a rejected name selects nobody and is reported once; a valid one remo
   }
 }
 
+TEST_CASE("a renamed learner stays the session's learner, also after the simulated driver has driven") {
+  LeftRig rig;
+  const auto learner = [&] { return rig.session.coach().view().learner; };
+  rig.session.apply(RenameLearner{"Ada  L"});
+  CHECK(learner() == "Ada L");
+  rig.session.apply(ChooseHand{"light"});
+  CHECK(learner() == "Ada L");
+  rig.session.apply(ChooseHand{std::string(kAutomaticHand)});
+  CHECK(learner().empty());
+  rig.session.apply(ChooseHand{"light"});
+  CHECK(learner() == "Ada L");
+  rig.session.apply(RenameLearner{"a\tb"});
+  CHECK(rig.says("learner's name"));
+  rig.session.apply(ChooseLearner{"ADA L"});
+  CHECK(learner() == "Ada L");
+}
+
 TEST_CASE("the panel shows that a trial can no longer be passed, from the failing error on") {
   LeftRig rig;
   rig.begin();
