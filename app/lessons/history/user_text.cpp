@@ -203,7 +203,7 @@ std::string problem_of(UserText kind, std::string_view text) {
   if (has_stacked_marks(points))
     return fmt::format("must not have more than {} marks on one letter, or one mark twice", kMaxMarks);
   if (kind == UserText::name) {
-    if (const std::string mixed = mixed_scripts_problem(points); !mixed.empty()) return mixed;
+    if (std::string mixed = mixed_scripts_problem(points); !mixed.empty()) return mixed;
   }
   const std::size_t max = kind == UserText::name ? kMaxNameLength : kMaxCommentLength, length = length_of(text);
   if (length > max) return fmt::format("must have at most {} characters, but has {}", max, length);
