@@ -65,6 +65,7 @@ void write_version_1(const std::filesystem::path& file, const Names& names) {
   }
   for (std::size_t i = 0; i < names.size(); ++i)
     execute(file, "UPDATE learner SET name = '" + names[i] + "' WHERE name = 'learner " + std::to_string(i) + "'");
+  execute(file, "ALTER TABLE driving_error DROP COLUMN speed_unit");  // version 1 had none
   execute(file, "PRAGMA user_version = 1");
 }
 
