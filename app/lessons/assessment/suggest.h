@@ -37,15 +37,31 @@ struct Suggestion {
 
 // The shipped lessons in teaching order. Starting and stopping come before the first shift, as in the driving course by
 // Carnetsoft.
-inline constexpr std::array<std::string_view, 24> kTeachingOrder{
-    "start_and_stop", "bite_point",           "moving_off",
-    "stop_and_go",    "up_through_the_gears", "down_through_the_gears",
-    "reverse",        "hill_start",           "hill_start_with_foot_brake",
-    "downhill_start", "engine_braking",       "down_before_a_bend",
-    "emergency_stop", "away_in_time",         "stalled_in_a_junction",
-    "reverse_uphill", "reverse_downhill",     "parking_in_gear",
-    "bump_start",     "skip_shifts",          "eco_driving",
-    "rev_matching",   "another_gate",         "six_speed"};
+inline constexpr std::array<std::string_view, 25> kTeachingOrder{"start_and_stop",
+                                                                 "bite_point",
+                                                                 "moving_off",
+                                                                 "stop_and_go",
+                                                                 "up_through_the_gears",
+                                                                 "down_through_the_gears",
+                                                                 "reverse",
+                                                                 "hill_start",
+                                                                 "hill_start_with_foot_brake",
+                                                                 "hold_on_the_clutch",
+                                                                 "downhill_start",
+                                                                 "engine_braking",
+                                                                 "down_before_a_bend",
+                                                                 "emergency_stop",
+                                                                 "away_in_time",
+                                                                 "stalled_in_a_junction",
+                                                                 "reverse_uphill",
+                                                                 "reverse_downhill",
+                                                                 "parking_in_gear",
+                                                                 "bump_start",
+                                                                 "skip_shifts",
+                                                                 "eco_driving",
+                                                                 "rev_matching",
+                                                                 "another_gate",
+                                                                 "six_speed"};
 
 // Summary of a task's last three results. The task with the larger fraction of failed runs is the weaker one; if the
 // fractions are equal, the task with the lower grade.

@@ -47,6 +47,7 @@ inline constexpr double kClutchDown = 0.8;      // [1] pedal position that lesso
 inline constexpr double kMinHillSlope = 0.02;   // [rad]
 inline constexpr double kMaxStandingSpeed = 0.3;  // [m/s]
 inline constexpr double kMinBumpSpeed = 2.5;      // [m/s] a car that rolls faster in gear starts its engine
+inline constexpr double kMinFeltSpeed = 0.02;     // [m/s] a slower creep on the clutch is not felt
 inline constexpr double kCreepBrake = 0.12;       // [1] brake that slows a car which creeps down a hill
 inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
 inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] slightly above kMinDrivingSpeed of the assessment (4 m/s)

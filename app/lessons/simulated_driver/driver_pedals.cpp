@@ -43,6 +43,9 @@ void SimulatedDriver::drive(const vehicle::DriveSample& now) {
         feet_.clutch.move_to(0.0, kClutchRateToBite);
       }
       break;
+    case Motion::hold:
+      hold_on_the_clutch(now);
+      break;
     case Motion::creep:
       creep(now);
       break;
@@ -169,6 +172,17 @@ void SimulatedDriver::launch(const vehicle::DriveSample& now) {
   const bool idle_stroke = feet_.clutch.value() > car_.clutch.bite + 0.01;
   feet_.clutch.move_to(0.0,
                        idle_stroke ? kClutchRateToBite : kClutchRateLaunch * release_rate_ / kClutchRateThroughBite);
+}
+
+// Feels the car creep, and lets it neither drive nor roll back.
+void SimulatedDriver::hold_on_the_clutch(const vehicle::DriveSample& now) {
+  if (feet_.hand_brake.value() > 0.05) return launch(now);  // to the bite point
+  feet_.brake.move_to(0.0, kBrakeRate);
+  if (spoil_launch(now)) return;
+  hold_revs(launch_target());
+  const double speed = now.car.road_speed;
+  if (std::abs(speed) < kMinFeltSpeed) return feet_.clutch.hold();
+  feet_.clutch.move_to(speed > 0.0 ? car_.clutch.bite : 0.0, speed > 0.0 ? kClutchRateCreep : 2.0 * kClutchRateCreep);
 }
 
 // True if a brake holds the car while the clutch comes up.

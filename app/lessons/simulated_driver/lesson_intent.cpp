@@ -11,7 +11,7 @@ constexpr double kWalkingSpeed = 1.3;   // [m/s]
 Motion motion_of(const DriveCondition& c) {
   if (c.brake_above && (c.clutch_torque_above || c.clutch_below)) return Motion::bite;
   if (c.brake_above) return Motion::slow;
-  if (c.speed_below && *c.speed_below < kMaxStopTarget) return Motion::stop;
+  if (c.speed_below && *c.speed_below < kMaxStopTarget) return c.brake_below ? Motion::hold : Motion::stop;
   if ((c.speed_above && c.speed_below) || c.rolled_back_above) return Motion::creep;
   if (c.speed_below) return Motion::slow;
   if (c.clutch_torque_above && c.hand_brake_above) return Motion::bite;

@@ -12,6 +12,7 @@ enum class Motion {
   stay,   // no change
   go,     // clutch up and drive
   bite,   // clutch at the bite point, or fully up with the engine off, with the car still held by a brake
+  hold,   // keep the car still on a slope with the slipping clutch alone
   creep,  // drive with a slipping clutch, at LessonIntent::speed
   slow,   // foot off the throttle and on the brake
   stop    // stop the car; clutch down before the engine stalls

@@ -95,6 +95,7 @@ class SimulatedDriver {
   void set_brakes(const vehicle::DriveSample& now);
   void drive_on(const vehicle::DriveSample& now);
   void creep(const vehicle::DriveSample& now);
+  void hold_on_the_clutch(const vehicle::DriveSample& now);
   bool is_held() const noexcept;
   bool is_pulled_downhill(int gear) const noexcept;
   void slow_down(const vehicle::DriveSample& now);

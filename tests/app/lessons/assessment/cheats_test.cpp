@@ -377,6 +377,10 @@ void howled_up_the_hill(ScriptedDrive& d) {
   Able{d}.accelerate_to(12.0);
 }
 
+void hill_start_by_the_hand_brake(ScriptedDrive& d) {
+  honest::hill_start(d);
+}
+
 void rolled_down_in_neutral(ScriptedDrive& d) {
   honest::foot_for_hand_brake(d);
   d.press(d.feet.pedals.brake, 0.0, 0.3);
@@ -409,7 +413,7 @@ void hesitated_in_the_gap(ScriptedDrive& d) {
 }
 
 void took_a_breath_after_the_stall(ScriptedDrive& d) {
-  d.pause = 9.0;
+  d.pause = 3.0;
   honest::stalled_in_a_junction(d);
 }
 
@@ -467,6 +471,7 @@ constexpr Cheat kCheats[] = {
     {"moving_off", moved_off_once, LessonEnd::left, "moved off once instead of twice"},
     {"stop_and_go", moved_off_once, LessonEnd::left, "moved off once instead of three times"},
     {"hill_start_with_foot_brake", changed_feet_before_the_bite, LessonEnd::aborted, "feet changed before the bite"},
+    {"hold_on_the_clutch", hill_start_by_the_hand_brake, LessonEnd::left, "drove off without a hold"},
     {"downhill_start", rolled_down_in_neutral, LessonEnd::aborted, "rolled down in neutral"},
     {"engine_braking", rode_the_brake, LessonEnd::left, "rode the brake"},
     {"down_before_a_bend", through_the_bend_in_fourth, LessonEnd::aborted, "through the bend in fourth"},

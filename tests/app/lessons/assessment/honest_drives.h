@@ -206,6 +206,28 @@ inline void hill_start_on_the_foot_brake(ScriptedDrive& d) {
   a.accelerate_to(11.0, 0.6);
 }
 
+// Holds the car still for four seconds, and corrects with the clutch.
+inline void hold_on_the_clutch(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
+  const auto slip = [&](double rate) {
+    a.hold_revs(1500.0);
+    d.feet.pedals.clutch += rate * 1e-3;
+  };
+  d.until([&] { return slip(-0.1), d.now().clutch_torque > hill_torque(d); }, 5.0);
+  const double begun = d.time();
+  d.until([&] {
+    slip(0.0);
+    d.feet.pedals.hand_brake = std::max(0.0, 1.0 - (d.time() - begun) / 0.3);
+    return d.feet.pedals.hand_brake == 0.0;
+  });
+  d.until([&] { return slip(d.km_per_h() > 0.05 ? 0.05 : d.km_per_h() < -0.05 ? -0.1 : 0.0), d.time() - begun > 4.3; });
+  a.launch_from_bite();
+  a.accelerate_to(11.0, 0.6);
+}
+
 inline void foot_for_hand_brake(ScriptedDrive& d) {
   d.press(d.feet.pedals.brake, 0.4, 0.3);
   d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
@@ -261,7 +283,7 @@ inline void away_in_time(ScriptedDrive& d) {
 }
 
 inline void stalled_in_a_junction(ScriptedDrive& d) {
-  d.wait(0.8 + d.pause);
+  d.wait(0.8 + 3.0 * d.pause);
   d.clutch_down();
   Able{d}.start_engine();
   Able{d}.launch();
@@ -532,6 +554,7 @@ inline constexpr Honest kHonest[] = {
     {"hill_start", hill_start},
     {"hill_start", hill_start_with_the_foot_brake},
     {"hill_start_with_foot_brake", hill_start_on_the_foot_brake},
+    {"hold_on_the_clutch", hold_on_the_clutch},
     {"downhill_start", downhill_start},
     {"engine_braking", engine_braking},
     {"down_before_a_bend", down_before_a_bend},

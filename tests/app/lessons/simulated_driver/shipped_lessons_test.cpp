@@ -48,6 +48,7 @@ constexpr Claims kClaims[] = {
     {"reverse", "clutch_dump grind stall wrong_direction"},
     {"hill_start", "clutch_burn clutch_dump over_rev rollback stall"},
     {"hill_start_with_foot_brake", "over_rev rollback stall"},
+    {"hold_on_the_clutch", "clutch_burn clutch_dump over_rev rollback stall"},
     {"downhill_start", "clutch_dump over_rev stall"},
     {"engine_braking", "clutch_dump coasting early_downshift no_clutch over_rev stall wrong_gear"},
     {"down_before_a_bend", "clutch_dump coasting early_downshift late_shift no_clutch over_rev stall wrong_gear"},
