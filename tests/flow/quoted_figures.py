@@ -57,10 +57,13 @@ def quoted(rows):
     at_once = max(value for value in rows.all("faults", "^(?!consecutive overruns)"))
     verdicts = [row["verdict"] for row in rows.rows.values() if row["goal"]]
     yield f"{sum(verdict.startswith('met') for verdict in verdicts)} of the {len(verdicts)} goals are met"
-    yield "p50 {:.0f} ns, p99 {:.0f} ns | 200, 500 ns{} |".format(of(*p50), of(*p99), rows.missed(p50, p99))
-    yield "{:.0f} x real time | 1000 x |".format(of("headless", "simulation at 1 kHz"))
+    yield "p50 {:.0f} ns, p99 {:.0f} ns | 150, 400 ns{} |".format(of(*p50), of(*p99), rows.missed(p50, p99))
+    lever, driven, lesson = (("headless", name) for name in ("simulation at 1 kHz", "simulation at 1 kHz with the driveline", "a whole lesson"))
+    yield "{:.0f} x real time | 3500 x{} |".format(of(*lever), rows.missed(lever))
     yield "{:.3f}, {:.3f}, {:.3f} mm | 0.04, 0.06, 0.10 |".format(*map(ripple, ("2000 Hz", "1000 Hz", "500 Hz")))
     yield "{:.3f}, {:.3f}, {:.3f} mm; with three".format(*(ripple(f"1000 Hz, delay {n}") for n in (1, 2, 3)))
+    unchecked = ("contact", "unchecked 5000 N/m wall, reversal limiter only, 100 Hz: final peak-to-peak motion, maximum")
+    yield "{:.2f} mm | 0.40 mm{} |".format(of(*unchecked), rows.missed(unchecked))
     yield "at least {:.1f} % | 95 % |".format(min(rows.all_beside("contact", "displayed")))
     yield "{:.1f}, {:.1f}, {:.1f} % | 95 % |".format(*in_motion)
     yield "it takes {:.0f} to {:.0f} % of it, and {:.0f} to {:.0f} % at every other".format(
@@ -79,7 +82,7 @@ def quoted(rows):
     yield "{:.0e} and {:.0e} %; {:.0e} and {:.0e} | 0.01 %; rounding |".format(
         *(of("driveline", name) for name in ("lock-up time compared with Jr dw / T", "slip energy compared with Jr dw^2 / 2",
                                              "momentum balance", "energy balance, worst drive")))
-    yield "{:.0f} x, {:.0f} x real time | 400 x |".format(of("headless", "simulation at 1 kHz with the driveline"), of("headless", "a whole lesson"))
+    yield "{:.0f} x, {:.0f} x real time | 2200, 1300 x{} |".format(of(*driven), of(*lesson), rows.missed(driven, lesson))
     yield "{:.1e} relative at 1 ms, {:.1f} ns a step | 1e-12 |".format(of("plant", "exact at 1 ms"), beside("plant", "exact at 1 ms", "cost"))
     yield "within {:.2f} % of the peak | 3 % |".format(of("feel", "commanded force along a slot, worst error"))
     yield "{:.2f} % (worst gate) to {:g} % | 99 % |".format(min(rows.all("intent", "")), max(rows.all("intent", "")))

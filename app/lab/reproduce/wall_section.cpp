@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAimBefore = -0.020, kAimBehind = 0.030;  // [m] targets of the hand before and behind the wall (at 0)
 constexpr double kStroke = 0.35, kRest = 0.20;             // [s]
-constexpr double kFirstPart = 0.005;                       // [s] first part of a contact, used for rate-hardness
+constexpr double kFirstPart = 0.005;                       // [s] window of the rate-hardness
 
 // A gripping hand pushes into the wall, rests there and pulls out again, as in the paper's Fig. 8.
 TrialRun push_and_pull(const Study& study) {
@@ -66,12 +66,14 @@ Reflection reflect(const TrialRun& run, double wanted) {
           *std::max_element(x.begin(), x.end())};
 }
 
-// Rate-hardness: initial rate of change of the motor force divided by the impact speed. [N/m]
+// Rate-hardness: fastest rise of the motor force within kFirstPart, over the impact speed, as in contact_rig.h. [N/m]
 double rate_hardness(const TrialRun& run, const TrialContact& contact) {
+  const auto ahead = static_cast<std::size_t>(std::lround(kFirstPart / run.period));
   double rise = 0.0;
-  for (const TrialSample& sample : run.samples) {
-    if (sample.time >= contact.begin && sample.time <= contact.begin + kFirstPart + run.period)
-      rise = std::max(rise, -sample.motor.x / (sample.time - contact.begin + run.period));
+  for (std::size_t i = 0; i + ahead < run.samples.size(); ++i) {
+    const TrialSample &from = run.samples[i], &to = run.samples[i + ahead];
+    if (from.time >= contact.begin - kFirstPart && from.time <= contact.begin + kFirstPart)
+      rise = std::max(rise, (from.motor.x - to.motor.x) / kFirstPart);
   }
   return rise / contact.speed;
 }
