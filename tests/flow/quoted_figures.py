@@ -50,7 +50,7 @@ def quoted(rows):
     worst = "energy added by the wall, worst impact, "
     lost = lambda place: -beside("energy", worst + place, "worst fraction of the impact energy")
     fast = [lost(f"{rate} Hz") for rate in (500, 1000, 2000)]
-    others = [lost(name.removeprefix(worst)) for family, name in rows.rows if name.startswith(worst)]
+    others = [lost(name.removeprefix(worst)) for family, name in rows.rows if name.startswith(worst) and "device walls" not in name]
     in_motion = [beside("contact", "1000 Hz, delay 2: final peak-to-peak motion, p95", f"Re Z at {f} Hz, of K") for f in (2, 5, 10)]
     p50, p99 = ("cycle", "whole cycle p50"), ("cycle", "whole cycle p99")
     cabin, driver = (("picture", f"cabin 1280x720, 1x, {what}") for what in ("shadow and mirror", "as the driver sees it"))
@@ -93,8 +93,8 @@ def quoted(rows):
 
 
 def named_rows(page):
-    """(families, name) of the rows named in the tables of the design and of the defaults."""
-    for row in re.findall(r"^\|.*\|$", page[page.index("## The design's table"):], re.M):
+    """(families, name) of the rows named in the table of the defaults."""
+    for row in re.findall(r"^\|.*\|$", page[page.index("## Defaults"):], re.M):
         for families, names in re.findall(r"((?:`?[a-z]+`?, )*`?[a-z]+`?): ((?:(?:RATE|a row)?[^|:`]*`[^`]+`)+)", row):
             for name in re.findall(r"`([^`]+)`", names):
                 if name != "feel":  # a family name among the rows
