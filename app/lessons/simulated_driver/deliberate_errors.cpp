@@ -33,7 +33,7 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
     if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     feet_.brake.move_to(0.0, kBrakeRate);
     hold_revs(launch_speed_);
-    feet_.clutch.move_to(0.5 * (car_.clutch.bite + kClutchDown), kClutchRateToBite);
+    feet_.clutch.move_to(bite_ + kHoverMargin, kClutchRateToBite);
     rolls_since_ = now.time();
     return true;
   }
@@ -49,7 +49,7 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
     return true;
   }
   feet_.throttle.move_to(kHurryThrottle, 4.0);
-  const bool releases_early = feet_.clutch.goal() == 0.0 && feet_.clutch.value() < car_.clutch.bite;
+  const bool releases_early = feet_.clutch.goal() == 0.0 && feet_.clutch.value() < bite_;
   if (now.car.engine_speed >= revs || releases_early) feet_.clutch.move_to(0.0, dumps ? kDumpRate : kAbruptRate);
   if (feet_.clutch.value() == 0.0) mark_done(dumps ? ErrorKind::clutch_dump : ErrorKind::jerk);
   return true;
@@ -91,7 +91,7 @@ bool SimulatedDriver::make_coasting(const vehicle::DriveSample& now) {
   feet_.brake.move_to(0.0, kBrakeRate);
   // Open the clutch, but press the pedal less far than a step "clutch down" requires, so that no such step is
   // completed.
-  feet_.clutch.move_to(car_.clutch.bite + kOpenMargin, kPressRate);
+  feet_.clutch.move_to(bite_ + kOpenMargin, kPressRate);
   return true;
 }
 

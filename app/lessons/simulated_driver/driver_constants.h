@@ -15,9 +15,9 @@ inline constexpr double kClutchRateLaunch = 0.25;      // [1/s] releasing the cl
 inline constexpr double kClutchRateAfterLaunch = 1.2;  // [1/s] releasing the clutch in a launch, after it has locked
 inline constexpr double kDumpSlip = 160.0;    // [rad/s] engine minus shaft speed when dumping the clutch while rolling
 inline constexpr double kRevTolerance = 8.0;  // [rad/s] accuracy of judging the engine speed by ear
-inline constexpr double kRevSettleTime = 0.12;    // [s] the engine speed must stay within the tolerance this long
-inline constexpr double kMaxBlipTime = 1.5;       // [s] a blip is given up after this time
-inline constexpr double kLightBite = 0.03;        // [1] pedal travel past the bite point that hardly transmits torque
+inline constexpr double kRevSettleTime = 0.12;  // [s] the engine speed must stay within the tolerance this long
+inline constexpr double kMaxBlipTime = 1.5;     // [s] a blip is given up after this time
+inline constexpr double kLightBite = 0.03;      // [1] pedal travel past the bite point that hardly transmits torque
 inline constexpr double kClutchRateCreep = 0.12;  // [1/s] releasing the clutch to find the bite point without throttle
 inline constexpr double kLaunchSpeed = 167.6;     // [rad/s] engine speed at a launch: 1600 rpm
 inline constexpr double kLaunchSpeedAfterStall =
@@ -43,16 +43,14 @@ inline constexpr double kBesideSlotTime = 0.2;  // [s] time of pushing beside a 
 inline constexpr double kSyncPatience = 4.0;    // [s] time of pushing on a blocking synchroniser before a new attempt
 inline constexpr double kMaxStepTime = 45.0;    // [s] time without a completed step before giving up
 inline constexpr double kPauseAfterMiss = 3.8;  // [s] time without a new attempt after a missed shift
-inline constexpr double kClutchDown = 0.8;      // [1] pedal position that lessons define as down
 inline constexpr double kMinHillSlope = 0.02;   // [rad]
 inline constexpr double kMaxStandingSpeed = 0.3;  // [m/s]
 inline constexpr double kMinBumpSpeed = 2.5;      // [m/s] a car that rolls faster in gear starts its engine
 inline constexpr double kMinFeltSpeed = 0.02;     // [m/s] a slower creep on the clutch is not felt
 inline constexpr double kCreepBrake = 0.12;       // [1] brake that slows a car which creeps down a hill
 inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
-inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] slightly above kMinDrivingSpeed of the assessment (4 m/s)
-// [m/s] Lowest speed for the deliberate errors `coasting` and `too_slow`. It is high enough that the car still counts
-// as driving after some seconds with the clutch down.
+inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] lowest speed for the deliberate error `blocked`
+// [m/s] Lowest speed for the deliberate errors `coasting` and `too_slow`: the car still rolls after some seconds.
 inline constexpr double kMinCoastingSpeed = 5.0;
 // [1] In a missed shift, the stroke ends at this fraction of the way from detent to gear, before the synchroniser ring.
 inline constexpr double kRingFraction = 0.12;
@@ -61,6 +59,7 @@ inline constexpr double kMouthDepth = 0.006;     // [m] depth of a stroke into a
 inline constexpr double kMouthStrokeTime = 0.2;  // [s] duration of the last stroke into a wrong slot
 
 // Constants of deliberate errors. "times the amount": multiplied by the entry of `DeliberateErrors::amount`.
+inline constexpr double kHoverMargin = 0.025;       // [1] pedal travel above the bite point in a roll back
 inline constexpr double kDumpRate = 25.0;           // [1/s] speed of the clutch pedal when the foot slips off
 inline constexpr double kAbruptRate = 3.8;          // [1/s] releasing the clutch abruptly: 0.26 s for the whole travel
 inline constexpr double kNearRevs = 60.0;           // [rad/s] with less rev difference, a jerk needs kDumpRate
@@ -80,6 +79,7 @@ inline constexpr double kEarlyThrottle = 0.15;      // [1] throttle that is pres
 inline constexpr double kThrottleLead = 0.6;        // [s] from throttle pressed to clutch up, times the amount
 inline constexpr double kSettleAfterOverRev = 5.0;  // [s] from over-revving until the clutch comes up
 inline constexpr double kEarlyShiftFactor = 0.8;    // [1] early shifts happen below this fraction of the correct speed
+inline constexpr double kLateShiftFactor = 1.5;     // [1] late shifts happen above this multiple of the prompted revs
 inline constexpr double kLateShiftMargin = 4.2;     // [m/s] late shifts happen this far past the correct speed
 
 }  // namespace gearshift::lessons

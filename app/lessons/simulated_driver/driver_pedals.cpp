@@ -73,7 +73,7 @@ void SimulatedDriver::drive_on(const vehicle::DriveSample& now) {
   is_rescuing_ = false;
   if (!is_up || now.car.gear == haptics::kNeutralGear) return release(now);
   feet_.clutch.move_to(rest, kClutchRateToBite);
-  double throttle = intent().accelerates ? kAccelerateThrottle : kCruiseThrottle;
+  double throttle = skill_.throttle_factor * (intent().accelerates ? kAccelerateThrottle : kCruiseThrottle);
   if (intent().no_throttle) throttle = 0.0;
   feet_.throttle.move_to(should_shift_late(now) ? kHurryThrottle : throttle, kThrottleRate);
 }
@@ -102,7 +102,7 @@ void SimulatedDriver::hold_revs(double speed) {
 }
 
 bool SimulatedDriver::feels_bite(const vehicle::DriveSample& now) const noexcept {
-  if (feet_.clutch.value() >= car_.clutch.bite || now.car.gear == haptics::kNeutralGear) return false;
+  if (feet_.clutch.value() >= bite_ || now.car.gear == haptics::kNeutralGear) return false;
   if (intent().no_throttle) return perceived_speed_ < car_.engine.idle - kIdleDrop;
   return perceived_speed_ < launch_target() - kBiteDrop && feet_.throttle.value() > 0.25;
 }
@@ -130,14 +130,15 @@ void SimulatedDriver::release(const vehicle::DriveSample& now) {
 void SimulatedDriver::release_rolling(const vehicle::DriveSample& now, double gear_speed) {
   const bool slips = !now.car.clutch_locked;
   const bool jerks = errors_.of(ErrorKind::jerk) >= 0.5, dumps = is_due(ErrorKind::clutch_dump);
-  const bool blips = intent().blip && errors_.of(ErrorKind::rev_mismatch) <= 0.0 && !jerks;
+  const bool blips = (intent().blip || ((skill_.blips || skill_.double_clutches) && shift_.is_down)) &&
+                     errors_.of(ErrorKind::rev_mismatch) <= 0.0 && !jerks;
   if (slips && dumps && !match_revs(now, gear_speed + kDumpSlip)) return;
   if (slips && blips && !dumps && !match_revs(now, gear_speed)) return;
   if (!blips && !dumps) {
     feet_.throttle.move_to(errors_.of(ErrorKind::step_order) > 0.0 ? kEarlyThrottle : 0.0, kThrottleRate);
   }
-  const double bite = car_.clutch.bite, pedal = feet_.clutch.value();
-  const bool carries_nothing = pedal > bite + 0.01, holds = !slips && pedal < 0.5 * bite;
+  const double pedal = feet_.clutch.value();
+  const bool carries_nothing = pedal > bite_ + 0.01, holds = !slips && pedal < 0.5 * bite_;
   if (pedal == 0.0) mark_done(ErrorKind::clutch_dump);
   if (carries_nothing) abrupt_rate_ = std::abs(now.car.engine_speed - gear_speed) < kNearRevs ? kDumpRate : kAbruptRate;
   if (dumps) return feet_.clutch.move_to(0.0, kDumpRate);
@@ -169,7 +170,7 @@ void SimulatedDriver::launch(const vehicle::DriveSample& now) {
   const bool labours = !intent().no_throttle && perceived_speed_ < (1.0 - skill_.max_bite_drop) * target && !held;
   if ((held && feels_bite(now)) || (labours && now.car.gear != haptics::kNeutralGear)) return feet_.clutch.hold();
   if (held && intent().motion == Motion::go && !intent().hand_brake) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
-  const bool idle_stroke = feet_.clutch.value() > car_.clutch.bite + 0.01;
+  const bool idle_stroke = feet_.clutch.value() > bite_ + 0.01;
   feet_.clutch.move_to(0.0,
                        idle_stroke ? kClutchRateToBite : kClutchRateLaunch * release_rate_ / kClutchRateThroughBite);
 }
@@ -182,7 +183,7 @@ void SimulatedDriver::hold_on_the_clutch(const vehicle::DriveSample& now) {
   hold_revs(launch_target());
   const double speed = now.car.road_speed;
   if (std::abs(speed) < kMinFeltSpeed) return feet_.clutch.hold();
-  feet_.clutch.move_to(speed > 0.0 ? car_.clutch.bite : 0.0, speed > 0.0 ? kClutchRateCreep : 2.0 * kClutchRateCreep);
+  feet_.clutch.move_to(speed > 0.0 ? bite_ : 0.0, speed > 0.0 ? kClutchRateCreep : 2.0 * kClutchRateCreep);
 }
 
 // True if a brake holds the car while the clutch comes up.
@@ -205,11 +206,11 @@ void SimulatedDriver::creep(const vehicle::DriveSample& now) {
   } else {
     hold_revs(1.3 * car_.engine.idle);
   }
-  const double speed = std::abs(now.car.road_speed), bite = car_.clutch.bite;
-  if (feet_.clutch.value() > bite + 0.01) {
+  const double speed = std::abs(now.car.road_speed);
+  if (feet_.clutch.value() > bite_ + 0.01) {
     feet_.clutch.move_to(0.0, kClutchRateToBite);
   } else if (speed > 1.15 * intent().speed) {
-    feet_.clutch.move_to(bite - kLightBite, 0.4);
+    feet_.clutch.move_to(bite_ - kLightBite, 0.4);
   } else if (speed < 0.9 * intent().speed && perceived_speed_ > 0.85 * car_.engine.idle) {
     feet_.clutch.move_to(0.0, kClutchRateCreep);
   } else {

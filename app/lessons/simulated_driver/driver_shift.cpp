@@ -53,23 +53,37 @@ std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const no
   return std::nullopt;
 }
 
-// True if the driver should shift up too early on purpose: below the step's speed or, without one, below the lesson's
-// band of engine speeds.
+// Returns the engine speed that the step's prompt names or, where the shift light tells when, the car's `advice`
+// [rad/s].
+std::optional<double> SimulatedDriver::revs_to_shift(std::size_t step,
+                                                     double vehicle::EngineSpec::*advice) const noexcept {
+  if (step >= lesson_.steps.size()) return std::nullopt;
+  const DriveCondition& until = lesson_.steps[step].until;
+  if (until.shift_light == true) return car_.engine.*advice;
+  return until.engine_above;
+}
+
+// True if the driver should shift up too early on purpose: below the step's speed or, without one, well below the revs
+// of the prompt.
 bool SimulatedDriver::should_shift_early(const vehicle::DriveSample& now) const noexcept {
   if (!is_due(ErrorKind::early_shift) || now.car.engine_speed < 1.25 * car_.engine.idle) return false;
   const std::optional<double> at = speed_to_shift(current_step_ + 1);
-  return at ? now.car.road_speed < kEarlyShiftFactor * *at : now.car.engine_speed < lesson_.shift_from;
+  if (at) return now.car.road_speed < kEarlyShiftFactor * *at;
+  const std::optional<double> revs = revs_to_shift(current_step_, &vehicle::EngineSpec::shift_low);
+  return revs && now.car.engine_speed < kEarlyShiftFactor * *revs;
 }
 
-// True while the driver delays a shift on purpose, until the engine speed is above the lesson's band or the road speed
-// is far past the step's speed.
+// True while the driver delays a shift on purpose, until the engine speed is far above that of the last prompt or the
+// road speed is far past the step's speed.
 bool SimulatedDriver::should_shift_late(const vehicle::DriveSample& now) const noexcept {
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
   if (!is_due(ErrorKind::late_shift) || !coupled || !intent().next_gear) return false;
   const bool up = *intent().next_gear > now.car.gear;
   if (const std::optional<double> at = speed_to_shift(current_step_))
     return up ? now.car.road_speed < *at + kLateShiftMargin : now.car.road_speed > *at - kLateShiftMargin;
-  return up && lesson_.shift_to <= car_.engine.red_line && now.car.engine_speed < 1.1 * lesson_.shift_to;
+  const std::optional<double> revs =
+      current_step_ > 0 ? revs_to_shift(current_step_ - 1, &vehicle::EngineSpec::shift_high) : std::nullopt;
+  return up && revs && now.car.engine_speed < std::min(kLateShiftFactor * *revs, 0.98 * car_.engine.red_line);
 }
 
 SimulatedDriver::Detour SimulatedDriver::detour_for(const vehicle::DriveSample& now, int gear) noexcept {
@@ -99,6 +113,7 @@ void SimulatedDriver::begin_shift(const vehicle::DriveSample& now, int gear) {
   if (shift_.detour == Detour::wrong_gear) shift_.gear = wrong_gear_for(gear, now.car.gear);
   if (shift_.detour == Detour::blocked) shift_.gear = 1;
   shift_.between_gears = now.car.gear != haptics::kNeutralGear && gear != haptics::kNeutralGear;
+  shift_.is_down = shift_.between_gears && gear >= 1 && gear < now.car.gear;
   mark_done(ErrorKind::grind);
   if (intent().accelerates) mark_done(ErrorKind::early_shift);
   if (is_lingering_) mark_done(ErrorKind::late_shift);
@@ -114,15 +129,35 @@ void SimulatedDriver::begin_shift(const vehicle::DriveSample& now, int gear) {
   // A foot that is too early by at most kMaxClutchLead waits, because the hand feels that the synchroniser ring still
   // blocks.
   shift_.clutch_early = (lag < -kMaxClutchLead && !dawdles) || errors_.of(ErrorKind::clutch_early) > 0.0;
+  if (skill_.double_clutches && shift_.is_down && shift_.uses_clutch && shift_.detour == Detour::none)
+    shift_.then = std::exchange(shift_.gear, haptics::kNeutralGear);
   release_at_ = std::max(0.0, lag);  // [s] delay after the gear is engaged; end_shift() converts it
   if (is_due(ErrorKind::wrong_direction) && now.car.road_speed < -kMinRollingSpeed)
     mark_done(ErrorKind::wrong_direction);
 }
 
 void SimulatedDriver::follow_shift(const vehicle::DriveSample& now) {
+  if (shift_.is_revving_in_neutral) return rev_in_neutral(now);
   shift_feet(now);
   shift_hand(now);
-  if (has_arrived(now)) end_shift(now);
+  if (!has_arrived(now)) return;
+  if (shift_.then == haptics::kNeutralGear) return end_shift(now);
+  shift_.is_revving_in_neutral = true;
+  blip_since_ = -1.0;
+  are_revs_matched_ = false;
+  rev_bias_ = std::exp(noise(skill_.rev_spread));
+}
+
+// The middle of double-clutching: lets the clutch up in neutral, brings engine and gearbox to the lower gear's speed,
+// and goes on to that gear.
+void SimulatedDriver::rev_in_neutral(const vehicle::DriveSample& now) {
+  set_brakes(now);
+  feet_.clutch.move_to(0.0, kClutchRateToBite);
+  if (feet_.clutch.value() > 0.0 || !match_revs(now, shaft_speed_in(now, shift_.then))) return;
+  shift_.is_revving_in_neutral = shift_.in_hand = false;
+  shift_.has_revved = true;
+  shift_.gear = std::exchange(shift_.then, haptics::kNeutralGear);
+  shift_.press_at = now.time();
 }
 
 void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
@@ -130,6 +165,8 @@ void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
   set_brakes(now);
   if (shift_.between_gears && time < shift_.flares_until) {
     feet_.throttle.move_to(0.8, 10.0);
+  } else if (shift_.has_revved) {
+    hold_revs(shaft_speed_in(now, shift_.gear));
   } else if (!make_over_rev(now) && time >= shift_.lift_at) {
     feet_.throttle.move_to(0.0, kLiftRate);
   }
@@ -148,8 +185,7 @@ void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
   if (shift_.releases_early) {
     // Lift the pedal quickly to just past the bite point, and then slowly. With the pedal further up, the synchroniser
     // ring would never let the gear in.
-    const double bite = car_.clutch.bite;
-    feet_.clutch.move_to(bite - 0.08, feet_.clutch.value() > bite - 0.03 ? 8.0 : 0.15);
+    feet_.clutch.move_to(bite_ - 0.08, feet_.clutch.value() > bite_ - 0.03 ? 8.0 : 0.15);
   } else if (time >= shift_.press_at) {
     press_clutch();
   }
@@ -170,7 +206,7 @@ void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
   const double time = now.time();
   if (!shift_.in_hand) {
     const bool is_down = clutch_is_down_ && time - clutch_down_at_ >= shift_.hand_lead;
-    const double to_bite = shift_.press_at + car_.clutch.bite / kPressRate;
+    const double to_bite = shift_.press_at + bite_ / kPressRate;
     const bool ahead = shift_.hand_lead < 0.0 && time >= to_bite + shift_.hand_lead;
     const bool ready = shift_.uses_clutch ? (is_down || ahead) : feet_.clutch.value() == 0.0;
     if (ready && !waits_for_shaft(now)) reach(now, shift_.gear);

@@ -1,6 +1,9 @@
 #include "app/lessons/simulated_driver/driver_skill.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "haptics/device/gaussian_noise.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -27,6 +30,23 @@ DriverSkill skill_of(double error) noexcept {
           between(&DriverSkill::hearing_delay), between(&DriverSkill::foot_change),
           between(&DriverSkill::brake_effort),  between(&DriverSkill::launch_speed_factor),
           between(&DriverSkill::reading_time),  between(&DriverSkill::max_bite_drop)};
+}
+
+DriverSkill in_style(const DriverSkill& skill, std::uint64_t seed, const StyleSpread& spread) {
+  haptics::GaussianNoise random(seed);
+  const auto factor = [&](double deviation) { return std::exp(deviation * random.next()); };
+  DriverSkill styled = skill;
+  styled.pace *= factor(spread.pace);
+  const double reaction = factor(spread.reaction);
+  styled.reaction *= reaction;
+  styled.foot_change *= reaction;
+  styled.release_haste *= factor(spread.haste);
+  const double gas = factor(spread.gas);
+  styled.launch_speed_factor *= gas;
+  styled.throttle_factor *= gas;
+  styled.hearing_delay *= factor(spread.hearing);
+  styled.bite_error += spread.bite_error * random.next();
+  return styled;
 }
 
 DeliberateErrors deliberate_error(ErrorKind kind, double amount) noexcept {

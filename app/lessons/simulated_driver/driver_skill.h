@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "app/lessons/assessment/driving_error.h"
 
@@ -24,8 +25,26 @@ struct DriverSkill {
   double launch_speed_factor = 1.0;  // [1] intended engine speed at a launch divided by the correct speed
   double reading_time = 0.0;         // [s] time to read a prompt, before the reaction
   double max_bite_drop = 0.18;       // [1] relative drop of engine speed at which the left foot pauses the release
+  double throttle_factor = 1.0;      // [1] throttle while accelerating and cruising, divided by the usual one
+  double bite_error = 0.0;       // [1] pedal position at which the driver expects the bite point, minus the true one
+  bool blips = false;            // matches the revs in every downshift, not only where the lesson asks for it
+  bool double_clutches = false;  // in downshifts, lets the clutch up in neutral to match the revs
   bool operator==(const DriverSkill&) const = default;
 };
+
+// Relative standard deviations of the styles of equally skilled drivers [1]. Each value is multiplied by exp(N(0, s)).
+// Engineering values; no measurements were found.
+struct StyleSpread {
+  double pace = 0.15;      // of the hand
+  double reaction = 0.20;  // also the time to move the right foot to the brake
+  double haste = 0.15;     // of clutch releases
+  double gas = 0.08;       // engine speed at a launch, and throttle
+  double hearing = 0.25;
+  double bite_error = 0.01;  // [1] standard deviation of DriverSkill::bite_error
+};
+
+// Returns `skill` in the style of one driver. The same seed gives the same style.
+DriverSkill in_style(const DriverSkill& skill, std::uint64_t seed, const StyleSpread& spread = {});
 
 // Interpolates between a practised driver (`error` = 0) and a beginner (`error` = 1). `error` [1] is clamped to 0 to 1.
 DriverSkill skill_of(double error) noexcept;

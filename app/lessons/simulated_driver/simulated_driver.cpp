@@ -12,6 +12,7 @@ SimulatedDriver::SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& c
                                  double period)
     : lesson_(lesson_in_car(lesson, car)),
       car_(car),
+      bite_(car.clutch.bite + skill.bite_error),
       gate_(gate),
       skill_(skill),
       errors_(errors),
@@ -52,7 +53,7 @@ vehicle::DriverAction SimulatedDriver::act(const vehicle::DriveSample& now, std:
     launch_speed_ = std::min(kLaunchSpeed, kLaunchSpeedAfterStall * launch_speed_);
   was_running_ = now.car.running;
   perceived_speed_ += (now.car.engine_speed - perceived_speed_) * std::min(1.0, period_ / skill_.hearing_delay);
-  const bool is_down = now.car.pedals.clutch >= car_.clutch.bite;
+  const bool is_down = now.car.pedals.clutch >= bite_;
   if (is_down && !clutch_is_down_) clutch_down_at_ = now.time();
   clutch_is_down_ = is_down;
   if (!handle_restart(now)) {

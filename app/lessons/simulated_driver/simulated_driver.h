@@ -45,6 +45,10 @@ class SimulatedDriver {
     int gear = haptics::kNeutralGear;
     Detour detour = Detour::none;
     bool between_gears = false;
+    bool is_down = false;                // between forward gears, to a lower one
+    int then = haptics::kNeutralGear;    // gear after neutral when double-clutching; kNeutralGear: none
+    bool is_revving_in_neutral = false;  // double-clutching: the clutch is up in neutral
+    bool has_revved = false;             // double-clutching: the throttle holds the revs of the lower gear
     bool uses_clutch = true;
     bool clutch_early = false;
     bool releases_early = false;  // the clutch is coming up too early
@@ -63,6 +67,7 @@ class SimulatedDriver {
   const LessonIntent& intent() const noexcept { return intents_[current_step_]; }
   double reading_time_of(std::size_t step) const noexcept;
   std::optional<double> speed_to_shift(std::size_t step) const noexcept;
+  std::optional<double> revs_to_shift(std::size_t step, double vehicle::EngineSpec::*advice) const noexcept;
   double launch_target() const noexcept;
   bool mark_done(ErrorKind kind) noexcept;
   bool is_due(ErrorKind kind) const noexcept;
@@ -79,6 +84,7 @@ class SimulatedDriver {
   Detour detour_for(const vehicle::DriveSample& now, int gear) noexcept;
   int wrong_gear_for(int gear, int from) const noexcept;
   void follow_shift(const vehicle::DriveSample& now);
+  void rev_in_neutral(const vehicle::DriveSample& now);
   void shift_feet(const vehicle::DriveSample& now);
   void shift_hand(const vehicle::DriveSample& now);
   void reach(const vehicle::DriveSample& now, int gear);
@@ -119,8 +125,9 @@ class SimulatedDriver {
   bool should_stall_by_brake(const vehicle::DriveSample& now) const noexcept;
   bool make_brake_stall(const vehicle::DriveSample& now);
 
-  Lesson lesson_;  // with this car's upshift band
+  Lesson lesson_;
   const vehicle::CarSpec& car_;
+  double bite_;  // [1] pedal position at which the driver expects the bite point
   const haptics::Gate& gate_;
   DriverSkill skill_;
   DeliberateErrors errors_;
