@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 
 struct BenchArguments {
   std::vector<std::string> families;
-  std::string csv_file, out;
+  std::string csv_file, out, norms_file;
   bool json = false;
   lab::BenchOptions options;
 };
@@ -184,6 +184,29 @@ void check_csv(const BenchArguments& arguments, const lab::Machine& machine) {
                            fs::path(arguments.out) / name);
 }
 
+// Writes the norms of practised simulated drivers. The old file is replaced only at the end.
+int write_norms(const BenchArguments& arguments) {
+  const base::StopSignals signals;
+  haptics::AtomicFile file(arguments.norms_file);
+  file.prepare();
+  base::ProgressBar progress;
+  lab::BenchOptions options = arguments.options;
+  options.progress = [&](std::string_view what, double fraction) {
+    if (base::StopSignals::requested()) throw Interrupted();
+    progress.show(what, fraction);
+  };
+  try {
+    const std::string text = lab::derive_norms(options);
+    file.write(text);
+    file.commit();
+    return 0;
+  } catch (const Interrupted&) {
+    progress.clear();
+    report_problem("interrupted; the norms were not written");
+    return 1;
+  }
+}
+
 int run_bench(const BenchArguments& arguments) {
   const lab::Machine machine = lab::this_machine(describe_gpu());
   check_csv(arguments, machine);
@@ -230,6 +253,12 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--out", arguments->out,
                    "also write bench.html with plots, bench.csv, bench.json and FAMILY.svg to this folder")
       ->type_name("DIR");
+  verb->add_option(
+          "--norms", arguments->norms_file,
+          "measure nothing; derive the norms of the lessons from practised simulated drivers and write them to "
+          "this file. Takes several minutes; the shipped file is assets/lessons/norms/simulated.toml")
+      ->type_name("FILE")
+      ->excludes("--family", "--quick", "--json", "--csv", "--out");
   verb->add_option("--block", arguments->options.jitter_block,
                    "length of each measurement block in the families jitter and beside [s]; 1 with --quick. Blocks "
                    "shorter than the default are not checked against a goal, and only runs with the default length are "
@@ -241,6 +270,7 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
     action = [arguments] {
       arguments->options.gate_folder = base::shipped_folder("gates").string();
       arguments->options.model_folder = base::shipped_folder("models").string();
+      if (!arguments->norms_file.empty()) return write_norms(*arguments);
       return run_bench(*arguments);
     };
   });

@@ -43,13 +43,25 @@ void print_errors(const lessons::LessonResult& result) {
   }
 }
 
-void print_result(const lessons::LessonResult& result, std::int64_t run) {
+// Prints the figures of a run that was judged by a norm, each with its norm.
+void print_figures(const lessons::LessonResult& result, const lessons::Norm* norm) {
+  if (norm == nullptr || !result.score) return;
+  for (const lessons::FigureLine& line : lessons::figure_lines(result, norm))
+    base::print_out("  {:<36}{:>10}{}\n", line.label, line.value, line.norm.empty() ? "" : "  norm " + line.norm);
+  base::print_out("  {}\n", lessons::kNormOrigin);
+}
+
+void print_result(const lessons::CoachView& view) {
+  const lessons::LessonResult& result = *view.result;
+  const std::int64_t run = view.run;
   print_errors(result);
+  print_figures(result, view.norm);
   if (run > 0) base::print_out("Run {}: ", run);
   const std::size_t shifts = result.shifts.size();
   base::print_out("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
   if (lessons::is_graded(result)) base::print_out("Grade {:.1f}/10. ", result.grade);
   base::print_out("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
+  if (!view.mastery.empty()) base::print_out("{}\n", view.mastery);
 }
 
 void print_shift(const lessons::ShiftRecord& shift, std::int64_t run) {
@@ -113,7 +125,7 @@ class Trials {
     coach_.leave();  // no effect unless the learner gave up or the run was interrupted
     print_new_shifts();
     report_coach_problem();
-    print_result(*coach_.view().result, coach_.view().run);
+    print_result(coach_.view());
   }
 
   // Prints the lesson's goal and guidance. Called only after the first cycle, so that a lesson that cannot start prints

@@ -9,12 +9,11 @@ namespace {
 
 // A release that takes less than this time from the bite point to fully up is a clutch dump, if its slip power reaches
 // the threshold of `clutch_dump`.
-constexpr double kFastRelease = 0.15;      // [s] engineering value
-constexpr double kMaxReleaseTime = 5.0;    // [s] longest duration of one clutch release (engineering value)
-constexpr double kMaxBrakeForJerk = 0.05;  // [1] brake pedal position above which jerk is not counted
-constexpr double kLaunchTime = 3.0;        // [s] duration of a typical launch (engineering value)
-constexpr double kGravity = 9.81;          // [m/s^2]
-constexpr double kHillHoldTime = 1.05;     // [s] time for which the clutch holds the car on a hill (engineering value)
+constexpr double kFastRelease = 0.15;    // [s] engineering value
+constexpr double kMaxReleaseTime = 5.0;  // [s] longest duration of one clutch release (engineering value)
+constexpr double kLaunchTime = 3.0;      // [s] duration of a typical launch (engineering value)
+constexpr double kGravity = 9.81;        // [m/s^2]
+constexpr double kHillHoldTime = 1.05;   // [s] time for which the clutch holds the car on a hill (engineering value)
 
 }  // namespace
 

@@ -18,7 +18,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 constexpr double kShortStep = 3.0;  // [s] times are shown to 0.01 s if the step's time limit is shorter than this
 
-using Figure = std::variant<std::optional<double> DrivingError::*, std::optional<int> DrivingError::*>;
+using MeasuredMember = std::variant<std::optional<double> DrivingError::*, std::optional<int> DrivingError::*>;
 
 // How a sentence shows the measured value: value * scale, with this many decimals.
 struct Shown {
@@ -31,7 +31,7 @@ constexpr Shown kInRpm{1.0 / haptics::kTurnPerMinute, 0}, kInKilo{1e-3, 1};
 struct ErrorDescription {
   ErrorKind kind;
   std::string_view key;
-  Figure measured;  // the value that the rule judges and the sentence names
+  MeasuredMember measured;  // the value that the rule judges and the sentence names
   Shown shown;
   ErrorRule rule;
   std::string_view action;    // verb phrase for "You fail if you ..."
@@ -65,7 +65,8 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::clutch_late, "clutch_late", &E::too_early_by, kHundredths, ErrorRule{0.05, 0.0, 0.3, Severity::minor},
      "move the lever before the clutch is down", "The lever moved {} s before the clutch was down.",
      "Press the clutch all the way down before you move the lever."},
-    // 70 rpm is the widest window in which the BonusFFB project counts revs as matched.
+    // 70 rpm is the widest window in which the BonusFFB project counts revs as matched. It applies only to gears that
+    // did not go in, see ErrorDetector::judge_clutch().
     {ErrorKind::no_clutch, "no_clutch", &E::speed_difference, kInRpm,
      ErrorRule{70 * haptics::kTurnPerMinute, 0.0, 1000 * haptics::kTurnPerMinute, Severity::severe},
      "shift without the clutch", "You shifted without the clutch; engine and gearbox were {} rpm apart.",
@@ -173,10 +174,10 @@ std::string format_speed(vehicle::SpeedUnit unit, double speed) {
 }
 
 std::string format_measured(const DrivingError& error) {
-  const Figure& figure = description_of(error.kind).measured;
+  const MeasuredMember& figure = description_of(error.kind).measured;
   const Shown& shown = description_of(error.kind).shown;
-  if (figure == Figure(&DrivingError::gear)) return gear_word(error.gear.value_or(haptics::kNeutralGear));
-  if (figure == Figure(&DrivingError::road_speed)) return format_speed(error.speed_unit, measured(error));
+  if (figure == MeasuredMember(&DrivingError::gear)) return gear_word(error.gear.value_or(haptics::kNeutralGear));
+  if (figure == MeasuredMember(&DrivingError::road_speed)) return format_speed(error.speed_unit, measured(error));
   return fmt::format("{:.{}f}", shown.scale * measured(error), shown.digits);
 }
 

@@ -359,11 +359,19 @@ int ErrorDetector::missed_gear(const ShiftRecord& record) const noexcept {
   return missed(wanted_gear_) ? wanted_gear_ : haptics::kNeutralGear;
 }
 
-// Reports errors in clutch timing. Returns true if the shift was made without the clutch and with unmatched revs.
+// Reports errors in clutch timing. Returns true if the shift was made, or tried with unmatched revs, without the clutch.
+// With the engine running, a gear that went in without the clutch is an error even if the revs were matched: lessons that
+// assess it are about the clutch.
 bool ErrorDetector::judge_clutch(const ShiftRecord& record) {
   if (record.clutch_time == 0.0) {
     const double error = std::max(std::abs(touch_error_), std::abs(record.rev_error));
-    return report_if(ErrorKind::no_clutch, record.begin, error, record.number);
+    const bool is_in = record.to != haptics::kNeutralGear && !record.missed;
+    if (!is_in || rolling_time_in(record).is_engine_not_ready)
+      return report_if(ErrorKind::no_clutch, record.begin, error, record.number);
+    const bool is_matched = error < threshold(ErrorKind::no_clutch);
+    const Severity severity = is_matched ? Severity::minor : error_severity(ErrorKind::no_clutch, error);
+    errors_.push_back(make_driving_error(ErrorKind::no_clutch, severity, record.begin, error, record.number));
+    return true;
   }
   report_if(ErrorKind::clutch_late, record.begin, -record.clutch_lead, record.number);
   report_if(ErrorKind::clutch_early, record.end, -record.clutch_lag, record.number);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -21,11 +22,40 @@ bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
   });
 }
 
+constexpr double kBestScore = 0.5;       // [1] part of the norm's limit up to which the grade is 10
+constexpr double kWorstScore = 3.0;      // [1] at this multiple of the limit the grade is 0
+constexpr double kGradeStep = 0.1;       // [1] grades are shown with one decimal
+constexpr double kUsualPassGrade = 6.0;  // [1] the default of Lesson::pass_grade
+
+bool is_of_lever(ErrorKind kind) noexcept {
+  switch (kind) {
+    case ErrorKind::riding_lever:
+    case ErrorKind::grind:
+    case ErrorKind::blocked:
+    case ErrorKind::missed_shift:
+    case ErrorKind::wrong_gear:
+    case ErrorKind::wrong_column:
+    case ErrorKind::over_push:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Points of the errors of some kinds, also of guided runs, whose errors cost none.
+double points_by_severity(const LessonResult& result, bool (*counts)(ErrorKind)) noexcept {
+  double points = 0.0;
+  for (const DrivingError& error : result.errors)
+    if (counts(error.kind)) points += points_of(error.severity);
+  return points;
+}
+
 // Returns the first error that fails the lesson, or null. Even a minor error can fail the lesson, because the error's
 // threshold already includes a tolerance.
 const DrivingError* failing_error(const Lesson& lesson, const LessonResult& result) {
   const auto fails = [&](const DrivingError& error) {
-    return fails_on(lesson, error.kind) && !is_within_tolerance(lesson, error);
+    const bool is_severe = error.severity >= Severity::severe;
+    return (is_severe || fails_on(lesson, error.kind)) && !is_within_tolerance(lesson, error);
   };
   const auto found = std::find_if(result.errors.begin(), result.errors.end(), fails);
   return found == result.errors.end() ? nullptr : &*found;
@@ -33,7 +63,7 @@ const DrivingError* failing_error(const Lesson& lesson, const LessonResult& resu
 
 // Returns why the lesson was not passed; empty if it was passed. If an abort condition has already set `result.why`,
 // returns that text, unless the run is not graded.
-std::string reason(const Lesson& lesson, const LessonResult& result) {
+std::string reason(const Lesson& lesson, const LessonResult& result, const Norm* norm) {
   if (result.guided) return "Not graded: the lever was guiding you.";
   if (!result.had_forces) return "Not graded: the lever's forces were off.";
   if (!result.is_complete) return "Not graded: part of the drive was not recorded.";
@@ -43,8 +73,20 @@ std::string reason(const Lesson& lesson, const LessonResult& result) {
   if (result.end == LessonEnd::aborted) return "The lesson was stopped early.";
   if (result.end == LessonEnd::out_of_time) return fmt::format("Not finished within {:.0f} s.", lesson.time_limit);
   if (result.end == LessonEnd::running) return "The lesson is not over yet.";
-  if (result.grade >= lesson.pass_grade) return {};
-  return fmt::format("Grade {:.1f} is below the pass grade of {:.1f}.", result.grade, lesson.pass_grade);
+  const double by_errors = std::max(0.0, kBestGrade - points_lost(result));
+  if (by_errors < lesson.pass_grade)
+    return fmt::format("Grade {:.1f} is below the pass grade of {:.1f}.", result.grade, lesson.pass_grade);
+  return result.score.value_or(0.0) > 1.0 ? worst_figure_sentence(result, *norm) : std::string();
+}
+
+double grade_by_score(double score, double pass_grade) noexcept {
+  const double beyond = (score - 1.0) / (kWorstScore - 1.0), before = (1.0 - score) / (1.0 - kBestScore);
+  if (score > 1.0) return pass_grade * std::max(0.0, 1.0 - beyond);
+  return pass_grade + (kBestGrade - pass_grade) * std::min(1.0, before);
+}
+
+double rounded_down(double grade) noexcept {
+  return std::floor(grade / kGradeStep + 1e-9) * kGradeStep;
 }
 
 }  // namespace
@@ -53,13 +95,20 @@ double points_of(Severity severity) noexcept {
   return kPoints[static_cast<std::size_t>(severity)];
 }
 
-void grade_result(const Lesson& lesson, LessonResult& result) {
+void grade_result(const Lesson& lesson, LessonResult& result, const Norm* norm) {
   const bool counts = !result.guided && result.is_complete;
   const bool was_not_completed = result.end == LessonEnd::aborted || result.end == LessonEnd::out_of_time;
   for (DrivingError& error : result.errors) error.points = counts ? points_of(error.severity) : 0.0;
-  result.grade = counts && !was_not_completed ? std::max(0.0, kBestGrade - points_lost(result)) : 0.0;
-  result.why = reason(lesson, result);
+  result.grading = norm != nullptr ? Grading::norm : Grading::errors;
+  result.score.reset();
+  if (norm != nullptr && result.end == LessonEnd::done) result.score = distance(result, *norm) / norm->limit;
+  const double by_errors = std::max(0.0, kBestGrade - points_lost(result));
+  const double by_score = result.score ? grade_by_score(*result.score, lesson.pass_grade) : kBestGrade;
+  result.grade = counts && !was_not_completed ? rounded_down(std::min(by_errors, by_score)) : 0.0;
+  result.why = reason(lesson, result, norm);
   result.passed = result.why.empty();
+  if (result.passed) result.grade = std::max(result.grade, lesson.pass_grade);
+  if (!result.passed) result.grade = std::max(0.0, std::min(result.grade, lesson.pass_grade - kGradeStep));
 }
 
 double points_lost(const LessonResult& result) noexcept {
@@ -75,9 +124,12 @@ bool is_graded(const LessonResult& result) noexcept {
 
 double run_error(const LessonResult& result) noexcept {
   if (result.end != LessonEnd::done) return 1.0;
-  double points = 0.0;  // also of guided runs, whose errors cost none
-  for (const DrivingError& error : result.errors) points += points_of(error.severity);
-  return std::min(1.0, points / kBestGrade);
+  const double by_score = result.score ? kBestGrade - grade_by_score(*result.score, kUsualPassGrade) : 0.0;
+  return std::min(1.0, std::max(by_score, points_by_severity(result, [](ErrorKind) { return true; })) / kBestGrade);
+}
+
+double lever_error(const LessonResult& result) noexcept {
+  return std::min(1.0, points_by_severity(result, is_of_lever) / kBestGrade);
 }
 
 }  // namespace gearshift::lessons

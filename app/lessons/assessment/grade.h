@@ -12,10 +12,15 @@ inline constexpr double kBestGrade = 10.0;
 // Points deducted for one error of this severity [1]; 0 for a note.
 double points_of(Severity severity) noexcept;
 
-// Computes the errors' `points` and the result's `grade`, `passed` and `why` from its other members. The grade is 10
-// minus the points, but at least 0. The grade is 0 if the lesson was aborted or not finished in time. A guided or
-// incomplete run loses no points, has a grade of 0, and is not passed.
-void grade_result(const Lesson& lesson, LessonResult& result);
+// Computes the errors' `points` and the result's `grade`, `score`, `grading`, `passed` and `why` from its other members.
+// `norm`: null if there is none.
+//
+// The grade is the smaller of two: 10 minus the errors' points, and 10 up to half of the norm's limit, falling to the
+// pass grade at the limit and to 0 at three times the limit. It is rounded down to a tenth. A run is passed with the
+// pass grade, no severe error, and no error on which the lesson fails; otherwise its grade is below the pass grade.
+// An aborted lesson, or one not finished in time, has the grade 0. So has a guided or incomplete run, which loses no
+// points and is not passed.
+void grade_result(const Lesson& lesson, LessonResult& result, const Norm* norm = nullptr);
 
 // Points deducted for all errors [1], which may be more than the best grade.
 double points_lost(const LessonResult& result) noexcept;
@@ -23,8 +28,12 @@ double points_lost(const LessonResult& result) noexcept;
 // True if the grade is valid: the run is over, it was unguided and complete, and the learner did not leave it early.
 bool is_graded(const LessonResult& result) noexcept;
 
-// Overall error of a run [1], guided or not, as the input of GuidancePolicy. It is the points for the run's driving
-// errors divided by 10, at most 1. If the lesson was not completed, it is 1.
+// Overall error of a run [1], guided or not, as the input of GuidancePolicy. It is the larger of the points for the run's
+// driving errors divided by 10, at most 1, and an error that grows with the score, as the points would for the same grade
+// with a pass grade of 6. If the lesson was not completed, it is 1.
 double run_error(const LessonResult& result) noexcept;
+
+// The same for the hand only: the points for errors of the lever, divided by 10, at most 1.
+double lever_error(const LessonResult& result) noexcept;
 
 }  // namespace gearshift::lessons

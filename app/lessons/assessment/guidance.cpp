@@ -32,11 +32,12 @@ TrialPlan GuidancePolicy::retention() const noexcept {
   return {0.0, HintStyle::summary};
 }
 
-void GuidancePolicy::learn(double error) noexcept {
-  if (!(error >= 0.0)) return;  // ignores NaN
+void GuidancePolicy::learn(double error, double of_lever) noexcept {
+  if (!(error >= 0.0 && of_lever >= 0.0)) return;  // ignores NaN
   error = std::min(error / config_.full_error, 1.0);
+  of_lever = std::min(of_lever / config_.full_error, 1.0);
   const double forgetting = config_.forgetting + skill_ * (config_.forgetting_skilled - config_.forgetting);
-  gain_ = std::clamp(forgetting * gain_ + config_.per_error * error, 0.0, 1.0);
+  gain_ = std::clamp(forgetting * gain_ + config_.per_error * of_lever, 0.0, 1.0);
   skill_ = config_.skill_memory * skill_ + (1.0 - config_.skill_memory) * (1.0 - error);
 }
 

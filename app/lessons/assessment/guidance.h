@@ -37,8 +37,8 @@ struct TrialPlan {
   HintStyle hints = HintStyle::prescriptive;
 };
 
-// After each trial, guided or not, the guidance gain g becomes f g + k e, limited to 0 to 1. The error e is the trial's
-// error divided by `full_error`, at most 1. The factor k is `per_error`. The factor f falls from `forgetting` to
+// After each trial, guided or not, the guidance gain g becomes f g + k e, limited to 0 to 1. The error e is the error of
+// the trial's lever divided by `full_error`, at most 1: what the feet did wrong, the lever's force cannot mend. The factor k is `per_error`. The factor f falls from `forgetting` to
 // `forgetting_skilled` as skill grows. Two of every four trials are unguided, in an order drawn from the seed. The same
 // seed and errors always give the same plans.
 class GuidancePolicy {
@@ -47,7 +47,9 @@ class GuidancePolicy {
 
   TrialPlan next();
   TrialPlan retention() const noexcept;  // plan of a retention test: unguided, feedback only at the end
-  void learn(double error) noexcept;     // error: run_error() of the trial just driven
+  // `error`, `of_lever`: run_error() and lever_error() of the trial just driven
+  void learn(double error, double of_lever) noexcept;
+  void learn(double error) noexcept { learn(error, error); }  // all of the error was the lever's
 
   double gain() const noexcept { return gain_; }    // [1]
   double skill() const noexcept { return skill_; }  // [1] running mean of one minus the trial error

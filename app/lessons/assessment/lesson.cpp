@@ -9,6 +9,7 @@
 
 #include "app/lessons/assessment/clutch_release.h"
 #include "app/lessons/assessment/drive_condition.h"
+#include "app/lessons/assessment/gate_path.h"
 #include "app/lessons/assessment/lever_path_text.h"
 #include "haptics/files/parameter_file.h"
 #include "haptics/files/text_file.h"
@@ -35,6 +36,8 @@ constexpr double kPedalPatience = 6.0;     // [s]
 // gains up to 580 rpm. The factor 1.3 allows 750 rpm in the hatchback (band up to 2500 rpm) and 660 rpm in the diesel
 // (up to 2200 rpm). Engineering values.
 constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] factors for the lower and upper end of the band
+
+constexpr double kSameWay = 0.01;  // [1] ways of the lever in one gate differ by less; in two gates by more
 
 // Labels from reverse to the highest gear: "R", "N", "1", "2", ...
 const std::vector<std::string>& gear_labels() {
@@ -332,7 +335,38 @@ Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car) {
 }
 
 Lesson read_lesson(const std::filesystem::path& file) {
-  return parse_lesson(haptics::read_text_file(file), file.string());
+  Lesson lesson = parse_lesson(haptics::read_text_file(file), file.string());
+  const std::filesystem::path norms = file.parent_path() / "norms" / "simulated.toml";
+  std::error_code ignored;
+  if (!std::filesystem::exists(norms, ignored)) return lesson;
+  for (Norm& norm : read_norms(norms))
+    if (norm.lesson == lesson.key) lesson.norms.push_back(std::move(norm));
+  return lesson;
+}
+
+const Norm* norm_of(const Lesson& lesson, LessonMode mode) noexcept {
+  const auto found =
+      std::find_if(lesson.norms.begin(), lesson.norms.end(), [&](const Norm& norm) { return norm.mode == mode; });
+  return found == lesson.norms.end() ? nullptr : &*found;
+}
+
+const Norm* norm_of(const Lesson& lesson, LessonMode mode, const vehicle::CarSpec& car, const haptics::Gate& gate) {
+  const Norm* norm = norm_of(lesson, mode);
+  const bool fits = norm != nullptr && norm->car == car.name &&
+                    std::abs(lever_way(lesson, gate) - norm->lever_way) <= kSameWay * norm->lever_way;
+  return fits ? norm : nullptr;
+}
+
+double lever_way(const Lesson& lesson, const haptics::Gate& gate) {
+  double way = 0.0;
+  glm::dvec2 at = haptics::rest_position(gate, lesson.start.gear);
+  for (const LessonStep& step : lesson.steps) {
+    if (!step.until.gear) continue;
+    const glm::dvec2 next = haptics::rest_position(gate, *step.until.gear);
+    way += shortest_path_length(gate, at, next);
+    at = next;
+  }
+  return way;
 }
 
 Lesson parse_lesson(std::string_view text, const std::string& file_name) {

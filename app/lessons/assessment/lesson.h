@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/lessons/assessment/driving_error.h"
+#include "app/lessons/assessment/norm.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/car_spec.h"
 #include "haptics/files/parameter.h"
@@ -81,11 +82,13 @@ struct Lesson {
   bool band_of_car = false;                 // use the car's band, see lesson_in_car()
   double pass_grade = 6.0;                  // [1] 0 to 10
   double time_limit = 120.0;                // [s]
+  std::vector<Norm> norms;                  // of practised drivers; empty for lessons that are not shipped
   std::string text;                         // the whole file
   std::string file;                         // for messages
 };
 
-// Throws FileError with file, line, key, value and allowed range.
+// Throws FileError with file, line, key, value and allowed range. Also reads the lesson's norms from norms/simulated.toml in the
+// same folder, if there is one.
 Lesson read_lesson(const std::filesystem::path& file);
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
 
@@ -101,6 +104,15 @@ std::string failing_errors_sentence(const Lesson& lesson);
 
 // The text with every speed in this unit: "3 to 6 km/h" becomes "2 to 4 mph". Rounded to whole numbers.
 std::string text_in_unit(std::string_view text, vehicle::SpeedUnit unit);
+
+// The lesson's norm in this mode; null if it has none.
+const Norm* norm_of(const Lesson& lesson, LessonMode mode) noexcept;
+
+// The same for a run with this car and gate; null if the norm is of another car, or of a gate with other ways.
+const Norm* norm_of(const Lesson& lesson, LessonMode mode, const vehicle::CarSpec& car, const haptics::Gate& gate);
+
+// Shortest way of the lever from the lesson's first gear through all gears that its steps wait for [m].
+double lever_way(const Lesson& lesson, const haptics::Gate& gate);
 
 // Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band, with the
 // clutch torque that holds this car on the slope, where a step waits for it, and with texts in the car's unit of speed.
@@ -183,7 +195,7 @@ static_assert(describes_all(&lessons::Lesson::key, &lessons::Lesson::title, &les
                             &lessons::Lesson::task, &lessons::Lesson::car, &lessons::Lesson::gate,
                             &lessons::Lesson::start, &lessons::Lesson::steps, &lessons::Lesson::aborts,
                             &lessons::Lesson::fails_on, &lessons::Lesson::counted, &lessons::Lesson::shift_from,
-                            &lessons::Lesson::shift_to, &lessons::Lesson::band_of_car, &lessons::Lesson::text,
-                            &lessons::Lesson::file));
+                            &lessons::Lesson::shift_to, &lessons::Lesson::band_of_car, &lessons::Lesson::norms,
+                            &lessons::Lesson::text, &lessons::Lesson::file));
 
 }  // namespace gearshift::haptics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,39 @@ constexpr LessonEnd last_value(LessonEnd) noexcept {
   return LessonEnd::left;
 }
 
+// How the grade was found. The history stores these values as numbers, so append new values at the end.
+enum class Grading {
+  old_rule,  // by errors, before there were norms: a grade above the pass grade could be a failed run's
+  errors,    // by errors; the lesson has no norm for this car, gate and mode
+  norm       // by errors and by the distance from practised drivers
+};
+constexpr std::string_view to_string(Grading grading) noexcept {
+  constexpr std::string_view kNames[] = {"old_rule", "errors", "norm"};
+  return kNames[static_cast<std::size_t>(grading)];
+}
+constexpr Grading last_value(Grading) noexcept {
+  return Grading::norm;
+}
+
+// Figures of a whole run, besides LessonResult::slip_energy. Empty: the run has no such shift. norm.h compares them.
+struct RunFigures {
+  std::optional<double> jerk_peak;          // [m/s^3] largest jerk while not braking
+  std::optional<double> rev_error;          // [rad/s] root mean square of ShiftRecord::rev_error
+  std::optional<double> clutch_lead_error;  // [s] root mean square of clutch_lead minus that of practised drivers
+  std::optional<double> clutch_lag_error;   // [s] the same of clutch_lag
+  std::optional<double> path_efficiency;    // [1] geometric mean over the shifts
+  std::optional<double> impulse;            // [N s] geometric mean over the shifts
+};
+
+constexpr void each_field(FieldsOf<RunFigures> auto&& figures, auto&& visit) {
+  visit(RecordField{"jerk_peak_m_per_s3"}, figures.jerk_peak);
+  visit(RecordField{"rev_error_rad_per_s"}, figures.rev_error);
+  visit(RecordField{"clutch_lead_error_s"}, figures.clutch_lead_error);
+  visit(RecordField{"clutch_lag_error_s"}, figures.clutch_lag_error);
+  visit(RecordField{"path_efficiency"}, figures.path_efficiency);
+  visit(RecordField{"impulse_n_s"}, figures.impulse);
+}
+
 struct LessonResult {
   std::string lesson;  // key
   std::string task;
@@ -39,12 +73,15 @@ struct LessonResult {
   bool had_forces = true;   // false if the run is incomplete because the lever had no forces
   double begin = 0.0;       // [s] on the haptic loop's clock
   double duration = 0.0;    // [s]
-  double grade = 0.0;       // [1] 0 to 10: 10 minus the errors' points; 0 if not finished
+  double grade = 0.0;       // [1] 0 to 10, see grade_result(); 0 if not finished
   bool passed = false;
   std::string why;  // one sentence on why the run was not passed
   std::vector<DrivingError> errors;
   std::vector<ShiftRecord> shifts;
   double slip_energy = 0.0;  // [J] heat in the clutch during the whole lesson
+  RunFigures figures;
+  Grading grading = Grading::errors;
+  std::optional<double> score;  // [1] distance from practised drivers, 1 is the largest that passes; empty: no norm
 };
 
 // Errors and shifts are records of their own. `why` contains the effect of `had_forces`.
@@ -61,6 +98,9 @@ constexpr void each_field(FieldsOf<LessonResult> auto&& result, auto&& visit) {
   visit(RecordField{"passed"}, result.passed);
   visit(RecordField{"why"}, result.why);
   visit(RecordField{"slip_energy_j"}, result.slip_energy);
+  each_field(result.figures, visit);
+  visit(RecordField{"graded_by"}, result.grading);
+  visit(RecordField{"score"}, result.score);
 }
 
 }  // namespace gearshift::lessons

@@ -87,11 +87,13 @@ struct LessonRun::State {
         config(a_config),
         meter(car, gate),
         detector(car, gate, {lesson.shift_from, lesson.shift_to}, shows_prompts(a_config) ? kReading : 0.0),
-        abort_held(a_lesson.aborts.size()) {}
+        abort_held(a_lesson.aborts.size()),
+        norm(norm_of(lesson, a_config.mode, car, gate)) {}
 
   static bool shows_prompts(const LessonRunConfig& config) { return config.mode == LessonMode::follow_me; }
   void begin(const vehicle::DriveSample& sample);
   void measure(const vehicle::DriveSample& sample);
+  void measure_jerk(const vehicle::DriveSample& sample);
   void add_shift(const std::optional<ShiftRecord>& ended);
   void apply_errors(std::vector<DrivingError> errors);
   void attribute(DrivingError& error) const;
@@ -118,6 +120,8 @@ struct LessonRun::State {
   HeldCondition held;
   std::vector<HeldCondition> ahead;  // conditions of the steps that can be reached by skipping
   std::vector<HeldCondition> abort_held;
+  const Norm* norm;  // of `lesson`; may be null
+  JerkFilter jerk;
   LessonView view;
   LessonResult result;
   std::vector<ShiftRecord> new_shifts;
@@ -180,12 +184,20 @@ void LessonRun::State::measure(const vehicle::DriveSample& sample) {
   result.duration = sample.time() - result.begin;
   result.slip_energy = sample.car.slip_energy - start_slip;
   result.guided = result.guided || sample.controls.guidance > 0.0;
+  measure_jerk(sample);
   highest = std::max(highest, sample.car.distance);
 
   const std::optional<ShiftRecord> ended = meter.add(sample);
   detector.add(sample, gear_wanted(sample.car.gear), meter.is_open(), speed_wanted(sample.car.gear));
   add_shift(ended);
   apply_errors(detector.drain_errors());
+}
+
+void LessonRun::State::measure_jerk(const vehicle::DriveSample& sample) {
+  const double dt = std::clamp(sample.time() - last.time(), 0.0, vehicle::kMaxSampleInterval);
+  const double now = std::abs(jerk.update(sample.car.acceleration, dt));
+  double& peak = result.figures.jerk_peak ? *result.figures.jerk_peak : result.figures.jerk_peak.emplace(0.0);
+  if (sample.car.pedals.brake < kMaxBrakeForJerk) peak = std::max(peak, now);
 }
 
 void LessonRun::State::add_shift(const std::optional<ShiftRecord>& ended) {
@@ -335,7 +347,8 @@ void LessonRun::State::end(LessonEnd how) {
   add_shift(meter.finish());
   detector.finish();
   apply_errors(detector.drain_errors());
-  grade_result(lesson, result);
+  measure_figures(result, norm);
+  grade_result(lesson, result, norm);
   if (config.hints != HintStyle::summary) return;
   for (const DrivingError& error : result.errors) {
     if (error.severity != Severity::note) view.feedback.push_back(error_sentence(error));
@@ -344,7 +357,7 @@ void LessonRun::State::end(LessonEnd how) {
 
 void LessonRun::mark_incomplete() {
   state_->result.is_complete = false;
-  grade_result(state_->lesson, state_->result);
+  grade_result(state_->lesson, state_->result, state_->norm);
 }
 
 void LessonRun::mark_forceless() {
@@ -370,6 +383,10 @@ bool LessonRun::is_over() const noexcept {
 
 const LessonResult& LessonRun::result() const noexcept {
   return state_->result;
+}
+
+const Norm* LessonRun::norm() const noexcept {
+  return state_->norm;
 }
 
 std::vector<ShiftRecord> LessonRun::drain_shifts() {

@@ -51,6 +51,8 @@ class LessonRun {
   bool is_in_shift() const noexcept;
   // The result so far. It is final once is_over() is true.
   const LessonResult& result() const noexcept;
+  // The norm by which the run is judged; null if the lesson has none for this car, gate and mode.
+  const Norm* norm() const noexcept;
   // Returns the shifts that ended since the last call.
   std::vector<ShiftRecord> drain_shifts();
 

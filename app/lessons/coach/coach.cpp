@@ -16,7 +16,7 @@
 namespace gearshift::lessons {
 namespace {
 
-LessonStanding standing_in(const Lesson& lesson, const std::vector<GradedTrial>& past) {
+LessonStanding standing_in(const Lesson& lesson, const std::vector<GradedTrial>& past, std::span<const RunRow> runs) {
   LessonStanding standing;
   standing.key = lesson.key;
   standing.title = lesson.title;
@@ -28,6 +28,9 @@ LessonStanding standing_in(const Lesson& lesson, const std::vector<GradedTrial>&
     standing.best = std::max(standing.best.value_or(0.0), result.grade);
     standing.passed = standing.passed || result.passed;
   }
+  standing.mastery = mastery_of(past, lesson.key);
+  standing.tries = static_cast<int>(
+      std::count_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.result.lesson == lesson.key; }));
   return standing;
 }
 
@@ -290,7 +293,7 @@ void Coach::State::refresh_view() {
 
 void Coach::State::update_standings() {
   view.lessons.clear();
-  for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
+  for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past, memory.runs()));
 }
 
 // Prefers the lesson that the instructor chose, if `config` contains that lesson.
@@ -334,6 +337,8 @@ void Coach::State::show_trial() {
   static const LessonResult no_result;
   view.now = run ? &run->view() : &no_prompts;
   view.result = run ? &run->result() : &no_result;
+  view.norm = run ? run->norm() : nullptr;
+  view.mastery = {};
   view.run = 0;
   has_saved_run = false;
 }
@@ -347,7 +352,7 @@ void Coach::State::plan() {
 
 // Every step is prompted until the learner has passed the lesson once.
 LessonMode Coach::State::usual_mode() const {
-  return standing_in(*lesson, past).passed ? LessonMode::by_yourself : LessonMode::follow_me;
+  return mastery_of(past, lesson->key) != Mastery::not_passed ? LessonMode::by_yourself : LessonMode::follow_me;
 }
 
 void Coach::State::show_mode() {
@@ -416,6 +421,8 @@ void Coach::State::finish_trial() {
   if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
   refresh_view();
   show_mode();
+  const Mastery mastery = mastery_of(past, result.lesson);
+  if (result.passed || (finished && mastery == Mastery::mastered)) view.mastery = mastery_sentence(mastery);
 }
 
 }  // namespace gearshift::lessons

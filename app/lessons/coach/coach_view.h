@@ -9,6 +9,7 @@
 #include "app/lessons/assessment/hint_style.h"
 #include "app/lessons/assessment/lesson_result.h"
 #include "app/lessons/assessment/lesson_run.h"
+#include "app/lessons/assessment/mastery.h"
 #include "app/lessons/history/history.h"
 
 namespace gearshift::lessons {
@@ -23,9 +24,11 @@ enum class LessonPhase {
 // A lesson in the list of lessons, with the learner's results in this lesson.
 struct LessonStanding {
   std::string key, title, task;
-  int trials = 0;                // number of graded trials
-  std::optional<double> grade;   // [1] 0 to 10, grade of the last graded trial
-  bool passed = false;           // a graded trial was passed
+  int trials = 0;               // number of graded trials
+  std::optional<double> grade;  // [1] 0 to 10, grade of the last graded trial
+  bool passed = false;          // a graded trial was passed
+  Mastery mastery = Mastery::not_passed;
+  int tries = 0;                 // number of runs, also guided, incomplete and abandoned ones
   std::optional<double> best{};  // [1] 0 to 10, best grade of all graded trials
 };
 
@@ -54,6 +57,9 @@ struct CoachView {
   // belong to the coach and change with every sample, which is why they are not copied.
   const LessonView* now = nullptr;
   const LessonResult* result = nullptr;
+  const Norm* norm = nullptr;  // by which the trial is judged; null: none
+  // Told at the end of a graded trial: "Passed once. Pass it again tomorrow or after another lesson."; may be empty
+  std::string_view mastery;
   double time_limit = 0.0;  // [s] time limit of the lesson; 0: no lesson
   std::int64_t run = 0;     // number of the run in the history; 0: not saved
 

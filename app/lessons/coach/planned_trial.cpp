@@ -25,7 +25,7 @@ PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::
     // Skip a run that ended early, so that the next trial uses the plan of that run again.
     if (run.result.lesson != lesson || !was_completed(run)) continue;
     (void)policy.next();
-    policy.learn(run_error(run.result));
+    policy.learn(run_error(run.result), lever_error(run.result));
     last = parse_utc(run.begun_at);
   }
   if (retention_pause(last, now)) return {policy.retention(), true};

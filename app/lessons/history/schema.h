@@ -16,10 +16,18 @@ std::string schema();
 
 // Script i upgrades a file from version i + 1 to i + 2. All needed scripts run in one
 // transaction, with foreign keys off, so that recreating a table does not delete dependent rows.
-// Learners whose names look equal are joined by version 2, too (History::State::join_equal_learners).
 inline constexpr std::array<const char*, 1> kUpgrades{
-    "ALTER TABLE driving_error ADD COLUMN speed_unit INTEGER NOT NULL DEFAULT 0;",
-};
+    // Version 2: figures of a run, how it was graded (0: by the old rule), and the car's unit of speed.
+    // Learners whose names look equal are joined, too (History::State::join_equal_learners).
+    "ALTER TABLE lesson_run ADD COLUMN jerk_peak_m_per_s3 REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN rev_error_rad_per_s REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN clutch_lead_error_s REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN clutch_lag_error_s REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN path_efficiency REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN impulse_n_s REAL;"
+    "ALTER TABLE lesson_run ADD COLUMN graded_by INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE lesson_run ADD COLUMN score REAL;"
+    "ALTER TABLE driving_error ADD COLUMN speed_unit INTEGER NOT NULL DEFAULT 0;"};
 inline constexpr int kSchemaVersion = 1 + static_cast<int>(std::tuple_size_v<decltype(kUpgrades)>);
 
 }  // namespace gearshift::lessons

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -46,11 +47,25 @@ std::string format_lost_points(const LessonResult& result) {
 }
 
 std::string format_outcome(const LessonResult& result) {
-  if (result.passed) return "<span class=\"passed\">passed</span>";
+  const std::string rule =
+      is_graded(result) && result.grading == Grading::old_rule ? "<br><span class=\"soft\">by the old rule</span>" : "";
+  if (result.passed) return "<span class=\"passed\">passed</span>" + rule;
   if (result.end == LessonEnd::running) return "never finished";
   const std::string why = result.why.empty() ? std::string() : "<br>" + base::html_text(result.why);
-  return (is_graded(result) ? "<span class=\"failed\">not passed</span>" : "not graded") + why +
+  return (is_graded(result) ? "<span class=\"failed\">not passed</span>" : "not graded") + rule + why +
          format_lost_points(result);
+}
+
+// Lists the figures of a run that was judged by a norm: "Largest jerk 31 m/s³ (norm up to 34 m/s³)".
+std::string figures_list(const LessonResult& result, std::span<const Lesson> lessons) {
+  if (!result.score) return {};
+  const auto lesson =
+      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == result.lesson; });
+  std::string list;
+  for (const FigureLine& line : figure_lines(result, lesson != lessons.end() ? norm_of(*lesson, result.mode) : nullptr))
+    list += fmt::format("{}{} {}{}{}", list.empty() ? "" : "; ", line.label, line.value,
+                        line.norm.empty() ? "" : " (norm " + line.norm + ")", line.is_worse ? " !" : "");
+  return "<p class=\"soft\">" + base::html_text(list) + "</p>";
 }
 
 // Comments are placed below the driving errors, because few runs have comments and a separate column would waste space.
@@ -87,7 +102,7 @@ std::string run_row(const RunRow& run, std::span<const Lesson> lessons, double p
       run.id, format_begin(run.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
       format_mode(result, pause), result.shifts.size(),
       is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), format_outcome(result),
-      error_list(result), comments_list(run.comments));
+      error_list(result) + figures_list(result, lessons), comments_list(run.comments));
 }
 
 }  // namespace
@@ -102,7 +117,10 @@ std::string runs_section(const LearnerHistory& history, std::span<const Lesson> 
   for (const GradedTrial& trial : graded_trials(history.runs)) pauses[trial.run] = trial.pause;
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run)
     table += run_row(*run, lessons, pauses[run->id]);
-  return section("runs", "Runs, newest first", table + "</tbody></table>\n");
+  const bool has_norms = std::any_of(history.runs.begin(), history.runs.end(),
+                                     [](const RunRow& run) { return run.result.score.has_value(); });
+  const std::string origin = has_norms ? paragraph(std::string(kNormOrigin)) : std::string();
+  return section("runs", "Runs, newest first", origin + table + "</tbody></table>\n");
 }
 
 }  // namespace gearshift::lessons

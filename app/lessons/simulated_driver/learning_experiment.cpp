@@ -13,6 +13,7 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr int kRetentionTrials = 2;
+constexpr double kNormal95 = 1.959964;  // [1] 97.5 % quantile of the normal distribution
 
 // Random numbers that are equal on all platforms. Does not use std::uniform_real_distribution: the C++ standard defines
 // the numbers of std::mt19937_64, but not those of the distributions.
@@ -67,7 +68,7 @@ struct Trainee {
   void learn(const LearningModel& model, const LessonResult& result, double gain) {
     const double failed = run_error(result);
     error *= 1.0 - rate * (1.0 - model.guided_loss * gain) * (1.0 - model.failed_loss * failed);
-    policy.learn(failed);
+    policy.learn(failed, lever_error(result));
     if (gain > 0.0) ++guided;
   }
 };
@@ -83,31 +84,40 @@ double roc_auc(std::span<const double> skilled, std::span<const double> unskille
   return wins / static_cast<double>(skilled.size() * unskilled.size());
 }
 
-Separation separate(const LessonDriveConfig& drive, int each, std::uint64_t seed, const SkillClasses& classes) {
-  RandomSource random(seed);
-  Separation result;
-  for (int i = 0; i < each; ++i) {
-    const double good = random.between(0.0, classes.max_skilled_error),
-                 bad = random.between(classes.min_unskilled_error, 1.0);
-    const LessonResult one = drive_as(drive, good, 0.0, random.seed());
-    const LessonResult other = drive_as(drive, bad, 0.0, random.seed());
-    result.skilled.push_back(score(one));
-    result.unskilled.push_back(score(other));
-    result.skilled_passed += one.passed ? 1 : 0;
-    result.unskilled_passed += other.passed ? 1 : 0;
-  }
-  result.auc = roc_auc(result.skilled, result.unskilled);
-  return result;
+Estimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept {
+  const double auc = roc_auc(skilled, unskilled);
+  const auto m = static_cast<double>(skilled.size()), n = static_cast<double>(unskilled.size());
+  if (m == 0.0 || n == 0.0) return {auc, 0.0, 1.0};
+  const double half = 0.5 * (m + n) - 1.0;
+  // Hanley and McNeil's standard error for a true value `t`, with equal class sizes.
+  const auto deviation = [&](double t) {
+    return std::sqrt(t * (1.0 - t) * (1.0 + half * ((1.0 - t) / (2.0 - t) + t / (1.0 + t))) / (m * n));
+  };
+  // The limits are the true values from which `auc` lies kNormal95 standard errors away.
+  const auto limit = [&](double inside, double outside) {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (std::abs(auc - middle) <= kNormal95 * deviation(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  return {auc, limit(auc, 0.0), limit(auc, 1.0)};
 }
 
-ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed,
-                               const SkillClasses& classes) {
+Estimate fraction_estimate(int successes, int trials) noexcept {
+  const double n = trials, p = successes / n, z2 = kNormal95 * kNormal95;
+  const double centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half = kNormal95 * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n)) / (1.0 + z2 / n);
+  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+}
+
+ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed) {
   RandomSource random(seed);
   ErrorSeparation result;
   std::vector<double> without, with;
   LessonDriveConfig faulty = drive;
   for (int i = 0; i < each; ++i) {
-    const double error = random.between(0.0, classes.max_skilled_error);
+    const double error = random.between(0.0, kMaxSkilledError);
     faulty.errors = deliberate_error(kind, random.between(0.6, 1.4));
     const LessonResult good = drive_as(drive, error, 0.0, random.seed());
     const LessonResult bad = drive_as(faulty, error, 0.0, random.seed());

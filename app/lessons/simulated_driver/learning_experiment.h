@@ -1,5 +1,5 @@
-// Experiments with many simulated drivers. Does the grade separate skilled from unskilled drivers? How does a guidance
-// policy affect learning?
+// Experiments with many simulated drivers, and their statistics. Are errors detected? How does a guidance policy affect
+// learning?
 //
 // Each trial is driven in full by a simulated driver. Only the improvement from trial to trial is a model
 // (LearningModel).
@@ -17,22 +17,18 @@ namespace gearshift::lessons {
 // driver. Ties count half. Equals Mann and Whitney's U divided by the number of pairs. 0.5 if a class is empty.
 double roc_auc(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
 
-// Ranges of the skill error (see skill_of()). It is uniformly distributed: from 0 to `max_skilled_error` for skilled
-// drivers, from `min_unskilled_error` to 1 for unskilled drivers. Engineering values.
-struct SkillClasses {
-  double max_skilled_error = 0.15;
-  double min_unskilled_error = 0.6;
+// A figure with its 95 % interval.
+struct Estimate {
+  double value = 0.0, low = 0.0, high = 0.0;
 };
+// Interval of roc_auc() after R. G. Newcombe. Confidence intervals for an effect size measure based on the Mann-Whitney
+// statistic. Part 2. 2006 (method 5). Unlike DeLong's and the bootstrap, it has a width where the classes do not overlap.
+Estimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
+// `successes` of `trials` as a fraction [1], with Wilson's interval. trials > 0.
+Estimate fraction_estimate(int successes, int trials) noexcept;
 
-struct Separation {
-  std::vector<double> skilled, unskilled;  // grades; 0 for a lesson that was not finished
-  int skilled_passed = 0, unskilled_passed = 0;
-  double auc = 0.5;
-};
-
-// From each class, `each` drivers drive the lesson once, without guidance. The skill and the seed in `drive` are
-// ignored.
-Separation separate(const LessonDriveConfig& drive, int each, std::uint64_t seed, const SkillClasses& classes = {});
+// Skill errors (see skill_of()) of skilled drivers are uniform from 0 to this value [1]. Engineering value.
+inline constexpr double kMaxSkilledError = 0.15;
 
 // Compares practised drivers who make one kind of deliberate error with practised drivers who make none. The error's
 // amount is uniformly distributed from 0.6 to 1.4.
@@ -42,8 +38,7 @@ struct ErrorSeparation {
   int false_alarms = 0;  // drives without the deliberate error in which it was reported
   double auc = 0.5;
 };
-ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed,
-                               const SkillClasses& classes = {});
+ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed);
 
 // After each trial, with guidance g and run_error() of grade.h, the skill error e becomes
 //     e (1 - rate (1 - guided_loss g) (1 - failed_loss run_error)).

@@ -114,7 +114,9 @@ void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, 
   ImGui::SetCursorPos({begin + width - width_of(verdict, font) - 0.2f * em, top + 0.1f * em});
   put(verdict, verdict_colour(run.result), font);
   if (lessons::is_graded(run.result)) {
-    const char* outcome = run.result.passed ? "passed" : "not passed";
+    const bool is_old = run.result.grading == lessons::Grading::old_rule;
+    const char* outcome =
+        run.result.passed ? (is_old ? "passed, old rule" : "passed") : (is_old ? "not passed, old rule" : "not passed");
     ImGui::SetCursorPos({begin + width - width_of(outcome, engine::UiFont::small) - 0.2f * em, top + 1.15f * em});
     put(outcome, verdict_colour(run.result), engine::UiFont::small);
   }

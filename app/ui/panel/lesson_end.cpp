@@ -51,6 +51,7 @@ void draw_outcome(const lessons::CoachView& coach) {
   put_wrapped(coach.title, ink::kSoft, engine::UiFont::small);
   put(format_outcome(result), lessons::is_graded(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
   if (!result.why.empty()) put_wrapped(result.why, ink::kText, engine::UiFont::body);
+  if (!coach.mastery.empty()) put_wrapped(coach.mastery, ink::kAccent, engine::UiFont::body);
   ImGui::EndGroup();
 }
 
@@ -109,9 +110,33 @@ void draw_driving_errors(const lessons::LessonResult& result) {
   ImGui::EndTable();
 }
 
+bool has_figures(const lessons::CoachView& coach) {
+  return coach.norm != nullptr && coach.result->score;
+}
+
+// Lists the figures of the run, each with its norm.
+void draw_figures(const lessons::CoachView& coach) {
+  if (!has_figures(coach)) return;
+  if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("figure", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, width_of("8888 rpm", engine::UiFont::small));
+  ImGui::TableSetupColumn("norm", ImGuiTableColumnFlags_WidthFixed, width_of("up to 8888 m/s³", engine::UiFont::small));
+  for (const lessons::FigureLine& line : lessons::figure_lines(*coach.result, coach.norm)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    put_wrapped(line.label, ink::kSoft, engine::UiFont::small);
+    ImGui::TableNextColumn();
+    put(line.value, line.is_worse ? ink::kWarn : ink::kText, engine::UiFont::small);
+    ImGui::TableNextColumn();
+    put(line.norm, ink::kSoft, engine::UiFont::small);
+  }
+  ImGui::EndTable();
+}
+
 float draw_judgement(const lessons::CoachView& coach) {
   draw_grade(*coach.result);
   draw_outcome(coach);
+  if (has_figures(coach)) put_wrapped(lessons::kNormOrigin, ink::kSoft, engine::UiFont::small);
   return ImGui::GetCursorPosY();
 }
 
@@ -122,6 +147,7 @@ float draw_lesson_end(const lessons::CoachView& coach) {
   if (all < kTwoColumns * em) {
     const float judged = draw_judgement(coach);
     draw_driving_errors(*coach.result);
+    draw_figures(coach);
     const float line = engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().CellPadding.y;
     return std::min(ImGui::GetCursorPosY(), judged + kVisibleErrors * line);
   }
@@ -131,6 +157,7 @@ float draw_lesson_end(const lessons::CoachView& coach) {
   ImGui::SameLine();
   ImGui::BeginChild("faults", {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
   draw_driving_errors(*coach.result);
+  draw_figures(coach);
   ImGui::EndChild();
   return judged;
 }

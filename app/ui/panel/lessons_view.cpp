@@ -85,20 +85,26 @@ void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool ca
   ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.22f * em, ImGui::GetItemRectMax().y}, ink::kAccent, 1.0f);
 }
 
-// Draws a tick on a disc if the lesson was passed, a ring if it was only tried, and nothing if it was never tried.
+// Draws a tick on a disc if the lesson is mastered, a half-filled ring if it was passed once, a ring if it was only tried,
+// and nothing if it was never tried.
 void draw_standing(const lessons::LessonStanding& lesson) {
   const float em = engine::ui_em(), radius = 0.42f * em;
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy({2.0f * radius, ImGui::GetTextLineHeight()});
   const ImVec2 c(low.x + radius, low.y + 0.5f * ImGui::GetTextLineHeight());
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (lesson.passed) {
+  if (lesson.mastery == lessons::Mastery::mastered) {
     list.AddCircleFilled(c, radius, ink::kGood);
     const ImVec2 tick[] = {{c.x - 0.45f * radius, c.y},
                            {c.x - 0.1f * radius, c.y + 0.4f * radius},
                            {c.x + 0.5f * radius, c.y - 0.4f * radius}};
     list.AddPolyline(tick, 3, ink::kWell, 0, 0.12f * em);
-  } else if (lesson.trials > 0) {
+  } else if (lesson.mastery == lessons::Mastery::passed_once) {
+    constexpr float kQuarter = 1.5707963f;  // [rad]
+    list.AddCircle(c, radius, ink::kGood, 0, 0.1f * em);
+    list.PathArcTo(c, radius, kQuarter, 3.0f * kQuarter);
+    list.PathFillConvex(ink::kGood);
+  } else if (lesson.tries > 0) {
     list.AddCircle(c, radius, ink::kWarn, 0, 0.1f * em);
   }
 }
@@ -123,12 +129,13 @@ std::string format_grade(double grade) {
   return fmt::format("{:>4.1f}", grade);
 }
 
-// "7 attempts, best 8.5, last 5.5; passed"
+// "7 attempts, 2 not graded; best 8.5, last 5.5. Not passed yet."
 std::string format_standing(const lessons::LessonStanding& lesson) {
-  std::string words = fmt::format("{} attempt{}", lesson.trials, lesson.trials == 1 ? "" : "s");
-  if (lesson.best) words += fmt::format(", best {:.1f}", *lesson.best);
+  std::string words = fmt::format("{} attempt{}", lesson.tries, lesson.tries == 1 ? "" : "s");
+  if (lesson.tries > lesson.trials) words += fmt::format(", {} not graded", lesson.tries - lesson.trials);
+  if (lesson.best) words += fmt::format("; best {:.1f}", *lesson.best);
   if (lesson.grade) words += fmt::format(", last {:.1f}", *lesson.grade);
-  return words + (lesson.passed ? "; passed" : "; not passed yet");
+  return fmt::format("{}. {}", words, lessons::mastery_sentence(lesson.mastery));
 }
 
 void draw_lesson(Controls& controls, const lessons::CoachView& coach, const lessons::LessonStanding& lesson,
@@ -144,7 +151,7 @@ void draw_lesson(Controls& controls, const lessons::CoachView& coach, const less
   ImGui::BeginDisabled(!can_offer);
   if (ImGui::Selectable("##lesson", is_here)) out.push_back(OfferLesson{lesson.key});
   controls.mark(controls.join("lesson", lesson.key));
-  if (lesson.trials > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+  if (lesson.tries > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", format_standing(lesson).c_str());
   ImGui::SetCursorPos(begin);
   controls.line(lesson.title, room, coach.next == lesson.key ? ink::kAccent : ink::kText);

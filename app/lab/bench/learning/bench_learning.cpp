@@ -1,5 +1,4 @@
-// Quality of the trainer's assessment, measured with simulated drivers. Does the grade separate skilled from unskilled
-// drivers? Are driving errors detected? How does the guidance policy affect learning?
+// Measured with simulated drivers: are driving errors detected, and how does the guidance policy affect learning?
 #include <filesystem>
 #include <string>
 
@@ -12,22 +11,6 @@ namespace gearshift::lab {
 namespace {
 
 namespace fs = std::filesystem;
-
-BenchRow separation_row(const lessons::LessonDriveConfig& drive, int each) {
-  lessons::Separation s = lessons::separate(drive, each, 1);
-  return {"learning",
-          drive.lesson.key + ": grade separates skilled from unskilled",
-          s.auc,
-          "AUC",
-          {},
-          true,
-          std::to_string(each) + " skilled and as many unskilled drives",
-          true,
-          {{"median grade, skilled", quantile(s.skilled, 0.5), ""},
-           {"median grade, unskilled", quantile(s.unskilled, 0.5), ""},
-           {"passed, skilled", 100.0 * s.skilled_passed / each, "%"},
-           {"passed, unskilled", 100.0 * s.unskilled_passed / each, "%"}}};
-}
 
 BenchRow fault_row(const lessons::LessonDriveConfig& drive, lessons::ErrorKind kind, int each) {
   const lessons::ErrorSeparation s = lessons::separate_error(drive, kind, each, 1);
@@ -89,17 +72,12 @@ std::vector<BenchRow> practice_rows(const lessons::LessonDriveConfig& drive, boo
 
 std::vector<BenchRow> bench_learning(const BenchOptions& options) {
   const fs::path assets = fs::path(options.gate_folder).parent_path();
-  const int each = options.quick ? 1 : 40;
   std::vector<lessons::LessonDriveConfig> drives;
   for (const std::string_view key : lessons::kTeachingOrder) drives.push_back(shipped_drive(assets, key));
   const auto report = [&](double fraction) {
     if (options.progress) options.progress("learning", fraction);
   };
   std::vector<BenchRow> rows;
-  for (const lessons::LessonDriveConfig& drive : drives) {
-    report(0.05 + 0.03 * static_cast<double>(rows.size()));
-    rows.push_back(separation_row(drive, each));
-  }
   const auto add = [&](std::vector<BenchRow> more) { rows.insert(rows.end(), more.begin(), more.end()); };
   add(fault_rows(drives, options.quick ? 1 : 20));
   report(0.7);

@@ -19,6 +19,7 @@ const std::vector<NamedFamily>& bench_families() {
                                                  {"intent", bench_intent, {Design::intent}},
                                                  {"driveline", bench_driveline, {Design::driveline}},
                                                  {"learning", bench_learning},
+                                                 {"score", bench_score, {Design::score}},
                                                  {"picture", bench_picture, {Design::first_frame, Design::cabin}},
                                                  {"quality", bench_quality, {Design::projected}},
                                                  {"light", bench_light},

@@ -90,12 +90,16 @@ std::vector<BenchRow> bench_search(const BenchOptions& options);     // the obse
 std::vector<BenchRow> bench_hard(const BenchOptions& options);       // many rates, delays, pushes, jitter, quantisation
 std::vector<BenchRow> bench_driveline(const BenchOptions& options);  // integration methods against a reference
 std::vector<BenchRow> bench_learning(const BenchOptions& options);   // assessment and guidance of simulated drivers
-std::vector<BenchRow> bench_faults(const BenchOptions& options);     // time from a fault to zero force
-std::vector<BenchRow> bench_picture(const BenchOptions& options);    // render time per pass; time to the first frame
-std::vector<BenchRow> bench_quality(const BenchOptions& options);    // anti-aliasing, shadow, mirror, projected points
-std::vector<BenchRow> bench_light(const BenchOptions& options);      // time and error of baking lights
-std::vector<BenchRow> bench_jitter(const BenchOptions& options);     // wake-up lateness compared with cyclictest
-std::vector<BenchRow> bench_beside(const BenchOptions& options);     // wake-up lateness with the renderer at full load
+std::vector<BenchRow> bench_score(const BenchOptions& options);    // does the grade tell practised drivers from others
+std::vector<BenchRow> bench_faults(const BenchOptions& options);   // time from a fault to zero force
+std::vector<BenchRow> bench_picture(const BenchOptions& options);  // render time per pass; time to the first frame
+std::vector<BenchRow> bench_quality(const BenchOptions& options);  // anti-aliasing, shadow, mirror, projected points
+std::vector<BenchRow> bench_light(const BenchOptions& options);    // time and error of baking lights
+std::vector<BenchRow> bench_jitter(const BenchOptions& options);   // wake-up lateness compared with cyclictest
+std::vector<BenchRow> bench_beside(const BenchOptions& options);   // wake-up lateness with the renderer at full load
+
+// Drives the populations of practised drivers and returns the content of assets/lessons/norms/simulated.toml. Takes minutes.
+std::string derive_norms(const BenchOptions& options);
 
 // Returns quantile q (0 to 1) of the sample, or 0 if the sample is empty. Sorts the sample.
 double quantile(std::vector<double>& sample, double q);

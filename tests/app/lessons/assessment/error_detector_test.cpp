@@ -295,7 +295,7 @@ TEST_CASE("clutch early or late: the value is the time, and small times are no e
   CHECK(shift(0.24, 0.47).empty());
 }
 
-TEST_CASE("no clutch: accepted if the revs match, otherwise reported without errors that follow from it") {
+TEST_CASE("no clutch: a gear that went in without it is reported even with matched revs; without errors that follow") {
   const auto shift = [](double rpm_off, bool goes_in) {
     return in_shift(
         [=](DriveSample& s, double t) {
@@ -309,11 +309,14 @@ TEST_CASE("no clutch: accepted if the revs match, otherwise reported without err
         },
         {}, 4.0);
   };
-  CHECK(shift(60.0, true).empty() == false);  // `no_clutch` is not reported, but the wrong order of the steps is
-  only(shift(60.0, true), ErrorKind::step_order);
+  const DrivingError matched = only(shift(60.0, true), ErrorKind::no_clutch);
+  CHECK(matched.speed_difference == doctest::Approx(rpm(60.0)).epsilon(1e-6));
+  CHECK(matched.severity == Severity::minor);
   const DrivingError error = only(shift(400.0, true), ErrorKind::no_clutch);
   CHECK(error.speed_difference == doctest::Approx(rpm(400.0)).epsilon(1e-6));
   only(shift(400.0, false), ErrorKind::no_clutch);
+  CHECK(shift(60.0, false).size() == 1);  // only a missed gear: with matched revs, a lever on the dogs is no error
+  only(shift(60.0, false), ErrorKind::missed_shift);
 }
 
 TEST_CASE("riding the clutch: a foot that rests on it in gear, but not briefly, while stopping or while creeping") {

@@ -1,9 +1,14 @@
 // Tests how a grade is computed. Each deducted point belongs to a driving error.
 #include "app/lessons/assessment/grade.h"
 
+#include <cmath>
+#include <random>
+#include <string>
 #include <utility>
 
 #include <doctest/doctest.h>
+
+#include "haptics/files/number_text.h"
 
 using namespace gearshift::lessons;
 
@@ -25,6 +30,14 @@ LessonResult done_with(const std::vector<Severity>& severities) {
   return result;
 }
 
+// Clutch heat of 1 kJ, with a standard deviation of its logarithm of 0.1. Two of them pass.
+Norm one_figure_norm() {
+  Norm norm;
+  norm.figures[0] = FigureNorm{1000.0, std::exp(0.1)};
+  norm.limit = 2.0;
+  return norm;
+}
+
 LessonResult graded(LessonResult result, const Lesson& lesson = lesson_that_catches({})) {
   grade_result(lesson, result);
   return result;
@@ -37,7 +50,8 @@ TEST_CASE(
   CHECK(graded(done_with({})).grade == 10.0);
   CHECK(graded(done_with({Severity::note})).grade == 10.0);
   CHECK(graded(done_with({Severity::minor})).grade == 9.5);
-  CHECK(graded(done_with({Severity::severe, Severity::minor})).grade == 7.5);
+  CHECK(graded(done_with(std::vector<Severity>(3, Severity::minor))).grade == 8.5);
+  CHECK(points_lost(graded(done_with({Severity::severe, Severity::minor}))) == 2.5);
   CHECK(graded(done_with({Severity::very_severe, Severity::severe, Severity::minor, Severity::note})).grade == 3.5);
 }
 
@@ -72,33 +86,88 @@ TEST_CASE("no grade is below zero") {
 }
 
 TEST_CASE("a lesson is passed from the pass grade on; otherwise one sentence gives the reason") {
-  const LessonResult at = graded(done_with({Severity::very_severe}));
+  const LessonResult at = graded(done_with(std::vector<Severity>(8, Severity::minor)));
+  CHECK(at.grade == 6.0);
   CHECK(at.passed);
   CHECK(at.why.empty());
-  const LessonResult below = graded(done_with({Severity::very_severe, Severity::minor}));
+  const LessonResult below = graded(done_with(std::vector<Severity>(9, Severity::minor)));
   CHECK_FALSE(below.passed);
   CHECK(below.why == "Grade 5.5 is below the pass grade of 6.0.");
 }
 
-TEST_CASE("an error that fails the lesson fails it at any grade, and its sentence is the reason") {
+TEST_CASE("an error that fails the lesson also puts the grade below the pass grade, and its sentence is the reason") {
   LessonResult stalled = done_with({});
   stalled.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 3.0, 90.0, -1));
-  const LessonResult result = graded(stalled, lesson_that_catches({ErrorKind::stall}));
-  CHECK(result.grade == 8.0);
-  CHECK_FALSE(result.passed);
-  CHECK(result.why == "The engine stalled: it fell from 859 rpm within a second.");
-  CHECK(graded(stalled).passed);
+  for (const Lesson& lesson : {lesson_that_catches({ErrorKind::stall}), lesson_that_catches({})}) {
+    const LessonResult result = graded(stalled, lesson);  // a severe error fails every lesson
+    CHECK(result.grade == doctest::Approx(5.9));
+    CHECK_FALSE(result.passed);
+    CHECK(result.why == "The engine stalled: it fell from 859 rpm within a second.");
+  }
 }
 
-TEST_CASE("an error on which the lesson fails fails it, minor or severe; one that is only counted costs points") {
-  for (const Severity severity : {Severity::minor, Severity::severe}) {
-    Lesson lesson = lesson_that_catches({ErrorKind::jerk});
-    CHECK_FALSE(graded(done_with({severity}), lesson).passed);
-    lesson.counted = std::exchange(lesson.fails_on, {});
-    const LessonResult result = graded(done_with({severity}), lesson);
-    CHECK(result.passed);
-    CHECK(result.grade == 10.0 - points_of(severity));
+TEST_CASE("a minor error fails a lesson that fails on it; where it is only counted it costs points") {
+  Lesson lesson = lesson_that_catches({ErrorKind::jerk});
+  CHECK_FALSE(graded(done_with({Severity::minor}), lesson).passed);
+  lesson.counted = std::exchange(lesson.fails_on, {});
+  const LessonResult result = graded(done_with({Severity::minor}), lesson);
+  CHECK(result.passed);
+  CHECK(result.grade == 9.5);
+}
+
+TEST_CASE("grade and verdict agree for random errors, pass grades and scores, also as shown with one decimal") {
+  std::mt19937_64 random(1);
+  const auto below = [&](std::uint64_t n) { return static_cast<int>(random() % n); };
+  int passed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Lesson lesson = lesson_that_catches({});
+    lesson.pass_grade = 1.0 + 0.1 * below(91);
+    if (below(3) == 0) lesson.fails_on = {ErrorKind::jerk};
+    std::vector<Severity> severities;
+    for (int n = below(6); n > 0; --n) severities.push_back(static_cast<Severity>(below(3)));
+    LessonResult result = done_with(severities);
+    for (DrivingError& error : result.errors)
+      if (error.severity == Severity::note) error.kind = ErrorKind::lugging;
+    const Norm norm = one_figure_norm();
+    result.slip_energy = 1000.0 * std::exp(0.01 * below(200));
+    grade_result(lesson, result, below(4) == 0 ? nullptr : &norm);
+    CAPTURE(result.grade);
+    CAPTURE(lesson.pass_grade);
+    CHECK(result.passed == (result.grade >= lesson.pass_grade - 1e-9));
+    CHECK(result.passed == (std::stod(gearshift::haptics::fixed_text(result.grade, 1)) >= lesson.pass_grade - 1e-9));
+    CHECK(result.passed == result.why.empty());
+    CHECK(result.grade <= 10.0);
+    CHECK(result.grade >= 0.0);
+    passed += result.passed ? 1 : 0;
   }
+  CHECK(passed > 2000);
+  CHECK(passed < 18000);
+}
+
+TEST_CASE("the grade falls with the distance from practised drivers, and is the pass grade at the limit") {
+  const Norm norm = one_figure_norm();
+  const auto at = [&](double deviations) {
+    LessonResult result = done_with({});
+    result.slip_energy = 1000.0 * std::exp(0.1 * deviations);  // the norm's standard deviation is exp(0.1)
+    Lesson lesson = lesson_that_catches({});
+    grade_result(lesson, result, &norm);
+    return result;
+  };
+  CHECK(at(-3.0).grade == 10.0);  // less heat than practised drivers is no fault
+  CHECK(at(1.0).grade == 10.0);   // half of the limit of 2
+  CHECK(at(1.5).grade == doctest::Approx(8.0));
+  CHECK(at(1.999).passed);
+  CHECK(at(1.999).grade == doctest::Approx(6.0));
+  CHECK(*at(2.0).score == doctest::Approx(1.0));
+  const LessonResult beyond = at(2.5);
+  CHECK_FALSE(beyond.passed);
+  CHECK(beyond.grade == doctest::Approx(5.2));  // 6 (1 - 0.25 / 2) = 5.25, rounded down
+  CHECK(beyond.grading == Grading::norm);
+  CHECK(beyond.why ==
+        "Not yet as smooth as practised drivers. Farthest off: Clutch heat, 1.28 kJ (norm: up to 1.18 kJ).");
+  CHECK(at(9.0).grade == doctest::Approx(1.5));  // deviations above 5 count as 5: 6 (1 - 1.5 / 2)
+  CHECK(graded(done_with({})).grading == Grading::errors);
+  CHECK_FALSE(graded(done_with({})).score);
 }
 
 TEST_CASE("a slow step fails the lesson from its fails_after on, or without that from its within on") {
@@ -158,5 +227,13 @@ TEST_CASE("the run's error is the sum of its errors' points, guided or not") {
   CHECK(run_error(result) == doctest::Approx(0.3));
   result.end = LessonEnd::aborted;
   CHECK(run_error(result) == 1.0);
+  CHECK(lever_error(result) == 0.0);  // a jerk is the foot's
+  result.end = LessonEnd::done;
+  result.errors = {make_driving_error(ErrorKind::wrong_column, Severity::minor, 1.0, 1.0),
+                   make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 60.0)};
+  CHECK(run_error(result) == doctest::Approx(0.25));
+  CHECK(lever_error(result) == doctest::Approx(0.05));
+  result.score = 1.0;  // as far from practised drivers as a pass allows: 4 of 10 points
+  CHECK(run_error(result) == doctest::Approx(0.4));
   CHECK(run_error(done_with(std::vector<Severity>(9, Severity::very_severe))) == 1.0);
 }

@@ -44,6 +44,14 @@ TEST_CASE("a constant error e keeps the gain at k e / (1 - f), and an error beyo
   CHECK(policy.gain() == 1.0);
 }
 
+TEST_CASE("the lever's guidance fades though the feet fail, and hints stay as long as anything does") {
+  GuidancePolicy feet_fail(1);
+  for (int n = 0; n < 30; ++n) feet_fail.learn(1.0, 0.0);
+  CHECK(feet_fail.gain() == doctest::Approx(std::pow(0.9, 30)).epsilon(1e-12));  // 0.9: the forgetting of a beginner
+  CHECK(feet_fail.skill() == 0.0);
+  CHECK(feet_fail.next().guidance == 0.0);
+}
+
 TEST_CASE("guidance fades faster for a skilled learner") {
   GuidancePolicy skilled(1), novice(1);
   for (int n = 0; n < 10; ++n) skilled.learn(0.02), novice.learn(0.35);

@@ -236,6 +236,36 @@ TEST_CASE("the standing in a lesson: number of graded trials, the last grade, wh
   CHECK(coach.view().runs[0].result.grade == *standing(coach, "one").grade);  // the newest run comes first
 }
 
+TEST_CASE("a lesson is mastered by a second pass after another lesson or on another day, and the coach says so") {
+  CoachBench bench;
+  Coach coach(bench.config);
+  coach.set_help(false);
+  bench.trial(coach, "one");
+  CHECK(coach.view().mastery == "Passed once. Pass it again tomorrow or after another lesson.");
+  bench.trial(coach, "one");
+  CHECK(standing(coach, "one").mastery == Mastery::passed_once);
+  bench.now += 24 * 3600;
+  bench.trial(coach, "one");
+  CHECK(standing(coach, "one").mastery == Mastery::mastered);
+  CHECK(coach.view().mastery == "Mastered: passed twice.");
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.view().mastery.empty());
+}
+
+TEST_CASE("the standing counts guided and abandoned tries, too") {
+  const CoachBench bench;
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  coach.offer(bench.config.lessons[0]);
+  bench.begin(coach);
+  std::vector<DriveSample> samples = bench_drive(Drive::good);
+  samples.resize(50);
+  coach.add(samples);
+  coach.leave();
+  CHECK(standing(coach, "one").tries == 2);
+  CHECK(standing(coach, "one").trials <= 1);
+}
+
 TEST_CASE("a lesson that does not fit the gate is rejected, and the previous offer stays") {
   CoachBench bench;
   bench.config.lessons[0].steps[1].gear = 9;

@@ -145,8 +145,8 @@ TEST_CASE("a lesson is read back as written, with errors, shifts and comments") 
 TEST_CASE("every member of a record is a column") {
   CHECK(fields_of(ShiftRecord()).size() == count_members<ShiftRecord>());
   CHECK(fields_of(DrivingError()).size() == count_members<DrivingError>());
-  // Errors and shifts have tables of their own; `had_forces` shows in `why`.
-  CHECK(fields_of(LessonResult()).size() + 3 == count_members<LessonResult>());
+  // Errors and shifts have tables of their own; `had_forces` shows in `why`; `figures` has columns of its own.
+  CHECK(fields_of(LessonResult()).size() + 4 == count_members<LessonResult>() + count_members<RunFigures>());
 }
 
 TEST_CASE("every kind of error is read back with its named values, and with nothing else") {

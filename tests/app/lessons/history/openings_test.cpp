@@ -97,6 +97,46 @@ TEST_CASE("a file of a newer version, left with its log by a killed program, is 
   CHECK(all_bytes(log) == logged);
 }
 
+TEST_CASE("a file of version 1 is upgraded: its runs keep their verdict, which counts as by the old rule") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  std::int64_t ada = 0;
+  {
+    History history(file);
+    ada = history.find_or_add_learner("Ada");
+    const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
+    history.end_run(run, some_result(2));
+  }
+  sqlite3* old = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
+  std::string sql = "PRAGMA user_version = 1;";
+  for (const char* column : {"jerk_peak_m_per_s3", "rev_error_rad_per_s", "clutch_lead_error_s", "clutch_lag_error_s",
+                             "path_efficiency", "impulse_n_s", "graded_by", "score"})
+    sql += std::string("ALTER TABLE lesson_run DROP COLUMN ") + column + ";";
+  REQUIRE(sqlite3_exec(old, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(old);
+  for (const HistoryUse use : {HistoryUse::read, HistoryUse::write}) {
+    History history(file, system_seconds, kHistoryLockTimeout, use);
+    const std::vector<RunRow> runs = history.runs(ada);
+    REQUIRE(runs.size() == 1);
+    const LessonResult& result = runs[0].result;
+    CHECK(result.grading == Grading::old_rule);
+    CHECK(result.passed);
+    CHECK(result.grade == 7.5);
+    CHECK(result.shifts.size() == 2);
+    CHECK_FALSE(result.score);
+    CHECK_FALSE(result.figures.jerk_peak);
+  }
+  History history(file);
+  const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
+  history.end_run(run, some_result(1));
+  const LessonResult result = history.runs(ada)[1].result;
+  CHECK(result.grading == Grading::norm);
+  CHECK(result.score == 0.75);
+  CHECK(result.figures.impulse == 4.5);
+  CHECK_FALSE(result.figures.clutch_lag_error);
+}
+
 // Invariant: data is written only to the file that was opened, and only while the file's version is unchanged.
 TEST_CASE(
     "a file upgraded by a newer program, or removed, while it is open: rejected in one sentence, and not written") {

@@ -35,6 +35,9 @@ inline lessons::LessonResult some_result(int shifts) {
   result.passed = true;
   result.why = "It's \"why\"; DROP TABLE shift; --";
   result.slip_energy = 2020.5;
+  result.figures = {31.5, 12.25, 0.125, std::nullopt, 1.0625, 4.5};
+  result.grading = lessons::Grading::norm;
+  result.score = 0.75;
   result.errors = {make_driving_error(lessons::ErrorKind::stall, lessons::Severity::severe, 13.5, 36.6, -1),
                    make_driving_error(lessons::ErrorKind::rollback, lessons::Severity::minor, 14.5, 0.3, 0),
                    make_driving_error(lessons::ErrorKind::jerk, lessons::Severity::note, 15.5, 9.0, 0),

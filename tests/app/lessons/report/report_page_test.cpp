@@ -127,6 +127,24 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
   CHECK(rows[1][6].empty());
 }
 
+TEST_CASE(
+    "a run shows its figures, and the page says where the norm is from; an old run says that its rule was another") {
+  LearnerHistory history = learner(2);
+  LessonResult& result = history.runs[1].result;
+  result.grading = Grading::norm;
+  result.score = 0.8;
+  result.slip_energy = 1250.0;
+  result.figures.jerk_peak = 31.0;
+  history.runs[0].result.grading = Grading::old_rule;
+  const std::string page = page_of(history);
+  const auto rows = table_of(page, "runs");
+  CHECK(has(rows[0][6], "Clutch heat 1.25 kJ; Largest jerk 31 m/s³"));
+  CHECK(has(page, std::string(kNormOrigin)));
+  CHECK(has(rows[1][5], "by the old rule"));
+  CHECK_FALSE(has(rows[0][5], "by the old rule"));
+  CHECK_FALSE(has(page_of(learner(2)), std::string(kNormOrigin)));
+}
+
 TEST_CASE("an error that cost no points shows its severity; more than ten lost points are shown as one sum") {
   LearnerHistory history = learner(2);
   LessonResult& guided = history.runs[0].result;

@@ -3,6 +3,7 @@
 #include "app/lessons/simulated_driver/learning_experiment.h"
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -31,6 +32,24 @@ double area_by_threshold(const std::vector<double>& good, const std::vector<doub
   return area;
 }
 
+// Standard deviation of the AUC after E. DeLong, D. DeLong, Clarke-Pearson. Comparing the areas under two or more
+// correlated receiver operating characteristic curves. 1988.
+double delong_deviation(const std::vector<double>& good, const std::vector<double>& bad) {
+  const auto variance_of_wins = [](const std::vector<double>& own, const std::vector<double>& others, bool is_good) {
+    std::vector<double> wins;
+    for (const double x : own) {
+      double sum = 0.0;
+      for (const double y : others) sum += x == y ? 0.5 : (x > y) == is_good ? 1.0 : 0.0;
+      wins.push_back(sum / static_cast<double>(others.size()));
+    }
+    double mean = 0.0, variance = 0.0;
+    for (const double w : wins) mean += w / static_cast<double>(wins.size());
+    for (const double w : wins) variance += (w - mean) * (w - mean) / static_cast<double>(wins.size() - 1);
+    return variance / static_cast<double>(wins.size());
+  };
+  return std::sqrt(variance_of_wins(good, bad, true) + variance_of_wins(bad, good, false));
+}
+
 // A lesson that requires nothing and ends at once, so that all errors and all learning come from the model.
 LessonDriveConfig nothing_to_do() {
   LessonDriveConfig drive = shipped_drive("moving_off");
@@ -49,24 +68,39 @@ TEST_CASE("the AUC equals the area under the ROC curve, also with ties") {
   CHECK(roc_auc({}, bad) == 0.5);
 }
 
-TEST_CASE("the grade separates skilled from unskilled drivers, and does not separate equally skilled ones") {
-  const LessonDriveConfig drive = shipped_drive("skip_shifts");
-  const Separation apart = separate(drive, 12, 7);
-  CAPTURE(apart.auc);
-  CHECK(apart.auc > 0.8);
-  const Separation same = separate(drive, 12, 7, {1.0, 0.0});
-  CAPTURE(same.auc);
-  CHECK(std::abs(same.auc - 0.5) < 0.3);
+TEST_CASE("the interval of the AUC agrees with DeLong's for many drivers, and has a width without overlap") {
+  std::mt19937_64 random(3);
+  const auto normals = [&](double mean) {
+    std::vector<double> values;
+    for (int i = 0; i < 400; ++i) {
+      double sum = mean - 6.0;  // the sum of twelve uniform numbers has the variance 1
+      for (int k = 0; k < 12; ++k) sum += static_cast<double>(random() >> 11) * 0x1.0p-53;
+      values.push_back(sum);
+    }
+    return values;
+  };
+  const std::vector<double> good = normals(1.0), bad = normals(0.0);
+  const Estimate estimate = auc_estimate(good, bad);
+  // Normal distributions one deviation apart: AUC = Phi(1 / sqrt 2) = 0.760.
+  CHECK(estimate.low < 0.760);
+  CHECK(estimate.high > 0.760);
+  const double half = 1.96 * delong_deviation(good, bad);
+  CHECK(estimate.low == doctest::Approx(estimate.value - half).epsilon(0.01));
+  CHECK(estimate.high == doctest::Approx(estimate.value + half).epsilon(0.01));
+  const Estimate apart = auc_estimate(std::vector<double>(20, 1.0), std::vector<double>(20, 0.0));
+  CHECK(apart.value == 1.0);
+  CHECK(apart.high == doctest::Approx(1.0));
+  CHECK(apart.low > 0.8);
+  CHECK(apart.low < 0.97);
 }
 
-TEST_CASE("a lesson that was given up has grade zero, even if the driven part was good") {
-  LessonDriveConfig drive = shipped_drive("moving_off");
-  drive.lesson.steps[3].until.distance_above = 5000.0;  // [m] further than anybody drives in first gear
-  drive.lesson.time_limit = 600.0;
-  const Separation none = separate(drive, 1, 5);
-  CHECK(none.skilled == std::vector<double>{0.0});
-  CHECK(none.unskilled == std::vector<double>{0.0});
-  CHECK(none.skilled_passed + none.unskilled_passed == 0);
+TEST_CASE("Wilson's interval of a fraction") {
+  // Newcombe. Two-sided confidence intervals for the single proportion. 1998, table I: 81 of 263 and 0 of 20.
+  const Estimate some = fraction_estimate(81, 263), none = fraction_estimate(0, 20);
+  CHECK(some.low == doctest::Approx(0.2553).epsilon(1e-3));
+  CHECK(some.high == doctest::Approx(0.3662).epsilon(1e-3));
+  CHECK(none.low == doctest::Approx(0.0));
+  CHECK(none.high == doctest::Approx(0.1611).epsilon(1e-3));
 }
 
 TEST_CASE("a deliberate error is detected and lowers the grade, and is not detected in other drives") {

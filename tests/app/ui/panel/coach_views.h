@@ -44,6 +44,8 @@ inline CoachState half_way() {
       standing.trials = 2 * static_cast<int>(i) + 1;
       standing.grade = kGrades[i];
       standing.passed = kGrades[i] >= 6.0;
+      standing.tries = standing.trials + 1;
+      if (standing.passed) standing.mastery = i < 2 ? lessons::Mastery::mastered : lessons::Mastery::passed_once;
       standing.best = std::max(kGrades[i], i == 3 ? 9.0 : 0.0);
     }
     coach.lessons.push_back(standing);
@@ -110,7 +112,7 @@ inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons
 
 inline std::vector<lessons::DrivingError> some_errors() {
   return {make_driving_error(lessons::ErrorKind::jerk, lessons::Severity::minor, 14.2, 9.7, 0),
-          make_driving_error(lessons::ErrorKind::grind, lessons::Severity::severe, 19.9, 12.4, 1),
+          make_driving_error(lessons::ErrorKind::grind, lessons::Severity::minor, 19.9, 12.4, 1),
           make_driving_error(lessons::ErrorKind::wrong_column, lessons::Severity::note, 20.1, 2.0, 1)};
 }
 inline std::vector<lessons::DrivingError> failing_errors() {
@@ -123,10 +125,33 @@ inline std::vector<lessons::DrivingError> failing_errors() {
   return errors;
 }
 
+// Norm in which every figure of result_of() is typical, except the largest jerk, which is six times as large.
+inline const lessons::Norm& some_norm() {
+  static const lessons::Norm norm = [] {
+    lessons::Norm made;
+    made.figures = {lessons::FigureNorm{900.0, 1.3}, lessons::FigureNorm{20.0, 1.2}, lessons::FigureNorm{25.0, 1.3},
+                    lessons::FigureNorm{0.05, 1.5},  lessons::FigureNorm{0.1, 1.5},  lessons::FigureNorm{1.1, 1.05},
+                    lessons::FigureNorm{2.0, 1.3}};
+    made.limit = 2.2;
+    return made;
+  }();
+  return norm;
+}
+
+// The same run, judged by that norm.
+inline lessons::LessonResult with_norm(lessons::LessonResult result) {
+  result.slip_energy = 880.0;
+  result.figures = {120.0, 24.0, 0.04, 0.11, 1.08, 1.9};
+  lessons::grade_result(shipped_lesson(result.lesson), result, &some_norm());
+  return result;
+}
+
 inline CoachState over(const lessons::LessonResult& result) {
   CoachState coach = driven(result.lesson);
   coach.phase = lessons::LessonPhase::over;
   coach.result = result;
+  if (result.score) coach.norm = &some_norm();
+  if (result.passed) coach.mastery = lessons::mastery_sentence(lessons::Mastery::passed_once);
   coach.guidance = result.guided ? 0.8 : 0.0;
   coach.next = result.passed ? "emergency_stop" : "hill_start";
   return coach;

@@ -209,7 +209,7 @@ TEST_CASE("a lesson that ended early shows that this gives 0 points, in addition
   CardRig rig(over(result));
   CHECK(says("Time's up (0 points)."));
   CHECK(says("Not passed"));
-  CHECK(says("-2.0"));
+  CHECK(says("-0.5"));
   result.end = LessonEnd::aborted;
   result.why = "The car rolled back more than a metre.";
   grade_result(shipped_lesson("hill_start"), result);
@@ -223,6 +223,19 @@ TEST_CASE("a lesson that ended early shows that this gives 0 points, in addition
   grade_result(shipped_lesson("hill_start"), result);
   rig.show(over(result));
   CHECK(says("Not finished"));
+}
+
+TEST_CASE("the end of a run shows each figure with its norm and says that the norm is of simulated drivers") {
+  CardRig rig(over(with_norm(result_of("hill_start", some_errors()))));
+  CHECK(says("Largest jerk"));
+  CHECK(says("120 m/s³"));
+  CHECK(says("up to 27 m/s³"));  // 20 times 1.2^1.645
+  CHECK(says("0.88 kJ"));
+  CHECK(says("The norm is of practised simulated drivers, not of people."));
+  CHECK(says("Passed once."));
+  rig.show(over(result_of("hill_start", some_errors())));
+  CHECK_FALSE(says("Largest jerk"));
+  CHECK_FALSE(says("simulated drivers"));
 }
 
 TEST_CASE("the keys are listed under goal and prompt, with the starter's key after a stall") {
@@ -413,11 +426,11 @@ TEST_CASE("deductions and grade add up to ten, and each deduction names its erro
     ++lines;
   }
   CHECK(lines == 2);
-  CHECK(10.0 - deducted == doctest::Approx(7.5));
-  const DrawnText grade = the_text(drawn_texts(), "7.5");
+  CHECK(10.0 - deducted == doctest::Approx(9.0));
+  const DrawnText grade = the_text(drawn_texts(), "9.0");
   for (const DrawnText& text : drawn_texts())
     CHECK(text.box.max.y - text.box.min.y <= grade.box.max.y - grade.box.min.y);
-  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gears ground (12.4 J)."), "-2.0"});
+  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gears ground (12.4 J)."), "-0.5"});
   CHECK(says("Passed"));
   CHECK_FALSE(says("wrong slot"));  // this error costs no points, so it is not listed
 }
@@ -437,5 +450,5 @@ TEST_CASE("after a lesson one click restarts it or offers the next lesson; a gui
   CHECK_FALSE(says("Passed"));
   CHECK_FALSE(says("0.0"));
   CHECK_FALSE(says("10.0"));
-  CHECK_FALSE(says("-2.0"));
+  CHECK_FALSE(says("-0.5"));
 }

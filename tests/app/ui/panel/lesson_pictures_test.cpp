@@ -69,6 +69,7 @@ std::vector<Moment> moments() {
           {"driving_guided", guided, {"lesson_leave"}},
           {"driving_test", test, {"lesson_leave"}},
           {"over_passed", over(result_of("hill_start", some_errors())), {"lesson_again", "lesson_next"}},
+          {"over_norm", over(with_norm(result_of("hill_start", some_errors()))), {"lesson_again", "lesson_next"}},
           {"over_best", over(result_of("hill_start", {})), end},
           {"over_failed", over(result_of("hill_start", failing_errors())), end},
           {"over_late", over(late), end},

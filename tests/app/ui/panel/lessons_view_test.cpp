@@ -273,7 +273,7 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
   CHECK(asked->begin == 19.5);
   CHECK(is_drawn("clutch released 0.08 s before the gear engaged; revs off by 239 rpm"));
   CHECK(is_drawn("blocked by the synchroniser for 0.31 s"));
-  CHECK(is_drawn("The gears ground (12.4 J). (-2.0)"));
+  CHECK(is_drawn("The gears ground (12.4 J). (-0.5)"));
   CHECK(is_drawn("Wait for the synchroniser: push, do not hit."));
   rig.click("run: 16");
   CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
@@ -285,9 +285,9 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
 TEST_CASE("each run shows its grade, or why it has none") {
   LessonsRig rig(with_history(), "tab_history");
   const std::vector<DrawnText> texts = drawn_texts();
-  for (const char* words : {"7.5", "0.0", "guided", "left early", "cut off", "data lost"}) CHECK(is_drawn(words));
-  // Newer runs are above older ones: run 16 (7.5) above run 15 (0.0), and run 14 (guided) above run 13 (left early).
-  CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);
+  for (const char* words : {"9.0", "0.0", "guided", "left early", "cut off", "data lost"}) CHECK(is_drawn(words));
+  // Newer runs are above older ones: run 16 (9.0) above run 15 (0.0), and run 14 (guided) above run 13 (left early).
+  CHECK(the_text(texts, "9.0").box.min.y < the_text(texts, "0.0").box.min.y);
   CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left early").box.min.y);
 }
 
@@ -333,11 +333,11 @@ TEST_CASE("an error costs points in a graded run, and none in a run that was lef
   rig.click("run: 13");
   rig.frame();
   CHECK(is_drawn("The gears ground (12.4 J)."));
-  for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.ends_with("(-2.0)"));
+  for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.ends_with("(-0.5)"));
   rig.click("run: 13");
   rig.click("run: 16");
   rig.frame();
-  CHECK(is_drawn("The gears ground (12.4 J). (-2.0)"));
+  CHECK(is_drawn("The gears ground (12.4 J). (-0.5)"));
 }
 
 TEST_CASE("a comment needs an author and a text, and is requested once") {

@@ -1,0 +1,234 @@
+#include "app/lessons/assessment/norm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "haptics/files/parameter.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/toml_reader.h"
+#include "haptics/files/toml_text.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr double kNineteenOfTwenty = 1.645;  // [1] standard deviations: 95 % of a normal distribution lie below
+
+struct FigureDescription {
+  Figure figure;
+  std::string_view key;    // in the file of norms
+  std::string_view label;  // for people
+  std::string_view unit;
+  double scale = 1.0;  // shown value per stored value
+  int decimals = 0;
+  double floor = 0.0;  // smaller values count as this one, because they are below what a person could tell
+};
+
+// In the order of Figure.
+constexpr std::array<FigureDescription, kFigureCount> kFigures{{
+    {Figure::clutch_heat, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
+    {Figure::jerk, "jerk_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
+    {Figure::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
+     1.0 / haptics::kTurnPerMinute, 0, 1.0},
+    {Figure::clutch_lead, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
+    {Figure::clutch_lag, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
+    {Figure::path, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
+    {Figure::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, 0.01},
+}};
+
+const FigureDescription& figure_description(Figure figure) noexcept {
+  return kFigures[static_cast<std::size_t>(figure)];
+}
+
+constexpr haptics::Range kPositive{0.0, 1e9}, kTime{-10.0, 10.0}, kSpread{1.0, 100.0};
+
+const std::vector<std::string>& mode_keys() {
+  static const std::vector<std::string> keys{std::string(to_string(LessonMode::follow_me)),
+                                             std::string(to_string(LessonMode::by_yourself))};
+  return keys;
+}
+
+Norm read_norm(const haptics::TomlTable& table) {
+  Norm norm;
+  norm.lesson = table.text("lesson");
+  norm.mode = table.choice("mode", mode_keys()) == mode_keys()[0] ? LessonMode::follow_me : LessonMode::by_yourself;
+  norm.car = table.text("car");
+  norm.lever_way = table.number("lever_way_m", kPositive);
+  norm.clutch_lead = table.number("clutch_lead_s", kTime);
+  norm.clutch_lag = table.number("clutch_lag_s", kTime);
+  norm.limit = table.number("limit", {1e-3, kMaxDeviation});
+  for (const FigureDescription& figure : kFigures) {
+    if (!table.has(figure.key)) continue;
+    const haptics::TomlTable values = table.table(figure.key);
+    norm.figures[static_cast<std::size_t>(figure.figure)] =
+        FigureNorm{values.number("typical", {1e-9, 1e9}), values.number("spread", kSpread)};
+    values.reject_unknown_keys();
+  }
+  table.reject_unknown_keys();
+  return norm;
+}
+
+// Standard deviations by which the figure is worse than typical [1], 0 to kMaxDeviation.
+double deviation(const LessonResult& result, Figure figure, const FigureNorm& norm) noexcept {
+  const std::optional<double> value = figure_of(result, figure);
+  if (!value) return kMaxDeviation;
+  const double ratio = std::max(*value, figure_description(figure).floor) / norm.typical;
+  return std::clamp(std::log(ratio) / std::log(norm.spread), 0.0, kMaxDeviation);
+}
+
+std::string format_figure(Figure figure, double value) {
+  const FigureDescription& shown = figure_description(figure);
+  return fmt::format("{:.{}f}{}", shown.scale * value, shown.decimals, shown.unit);
+}
+
+// The value that 19 of 20 practised drivers stay below.
+double upper_value(const FigureNorm& norm) noexcept {
+  return norm.typical * std::pow(norm.spread, kNineteenOfTwenty);
+}
+
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  void add(double value) noexcept { sum += value, ++count; }
+  std::optional<double> value() const noexcept { return count > 0 ? std::optional(sum / count) : std::nullopt; }
+};
+
+std::optional<double> root(std::optional<double> square) noexcept {
+  return square ? std::optional(std::sqrt(*square)) : std::nullopt;
+}
+
+std::optional<double> exp_of(std::optional<double> logarithm) noexcept {
+  return logarithm ? std::optional(std::exp(*logarithm)) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Norm> read_norms(const std::filesystem::path& file) {
+  return parse_norms(haptics::read_text_file(file), file.string());
+}
+
+std::vector<Norm> parse_norms(std::string_view text, const std::string& file_name) {
+  std::vector<Norm> norms;
+  const haptics::TomlTable root_table = haptics::TomlTable::parse(text, file_name);
+  for (const haptics::TomlTable& table : root_table.tables("norm")) norms.push_back(read_norm(table));
+  root_table.reject_unknown_keys();
+  return norms;
+}
+
+double rounded_for_norm(double value) {
+  return std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
+}
+
+std::string norms_text(std::span<const Norm> norms) {
+  std::string text =
+      "# Figures of practised simulated drivers, each with its geometric mean and the factor of one standard "
+      "deviation,\n"
+      "# and the largest distance from them that passes. `gearshift bench --norms FILE` wrote this file.\n";
+  for (const Norm& norm : norms) {
+    text += fmt::format(
+        "\n[[norm]]\nlesson = {}\nmode = {}\ncar = {}\nlever_way_m = {}\nclutch_lead_s = {}\nclutch_lag_s = {}\nlimit "
+        "= "
+        "{}\n",
+        haptics::toml_string(norm.lesson), haptics::toml_string(to_string(norm.mode)), haptics::toml_string(norm.car),
+        haptics::toml_number(norm.lever_way), haptics::toml_number(norm.clutch_lead),
+        haptics::toml_number(norm.clutch_lag), haptics::toml_number(norm.limit));
+    for (const FigureDescription& figure : kFigures) {
+      const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
+      if (!values) continue;
+      text += fmt::format("{} = {{ typical = {}, spread = {} }}\n", figure.key, haptics::toml_number(values->typical),
+                          haptics::toml_number(values->spread));
+    }
+  }
+  return text;
+}
+
+void measure_figures(LessonResult& result, const Norm* norm) {
+  Mean rev, lead, lag, path, impulse;
+  for (const ShiftRecord& shift : result.shifts) {
+    path.add(std::log(shift.path_efficiency));
+    impulse.add(std::log(std::max(shift.impulse, figure_description(Figure::impulse).floor)));
+    if (shift.missed || shift.to == haptics::kNeutralGear) continue;
+    rev.add(shift.rev_error * shift.rev_error);
+    if (shift.clutch_time <= 0.0 || norm == nullptr) continue;
+    lead.add((shift.clutch_lead - norm->clutch_lead) * (shift.clutch_lead - norm->clutch_lead));
+    lag.add((shift.clutch_lag - norm->clutch_lag) * (shift.clutch_lag - norm->clutch_lag));
+  }
+  RunFigures& figures = result.figures;
+  figures.rev_error = root(rev.value());
+  figures.clutch_lead_error = root(lead.value());
+  figures.clutch_lag_error = root(lag.value());
+  figures.path_efficiency = exp_of(path.value());
+  figures.impulse = exp_of(impulse.value());
+}
+
+std::optional<double> figure_of(const LessonResult& result, Figure figure) noexcept {
+  const RunFigures& figures = result.figures;
+  switch (figure) {
+    case Figure::clutch_heat:
+      return result.slip_energy;
+    case Figure::jerk:
+      return figures.jerk_peak;
+    case Figure::rev_error:
+      return figures.rev_error;
+    case Figure::clutch_lead:
+      return figures.clutch_lead_error;
+    case Figure::clutch_lag:
+      return figures.clutch_lag_error;
+    case Figure::path:
+      return figures.path_efficiency;
+    case Figure::impulse:
+      return figures.impulse;
+  }
+  return std::nullopt;
+}
+
+double figure_logarithm(Figure figure, double value) noexcept {
+  return std::log(std::max(value, figure_description(figure).floor));
+}
+
+double distance(const LessonResult& result, const Norm& norm) noexcept {
+  Mean squares;
+  for (const FigureDescription& figure : kFigures) {
+    const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
+    if (!values) continue;
+    const double by = deviation(result, figure.figure, *values);
+    squares.add(by * by);
+  }
+  return std::sqrt(squares.value().value_or(0.0));
+}
+
+std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm) {
+  std::vector<FigureLine> lines;
+  for (const FigureDescription& figure : kFigures) {
+    const std::optional<double> value = figure_of(result, figure.figure);
+    if (!value) continue;
+    FigureLine line{figure.label, format_figure(figure.figure, *value), {}};
+    const std::optional<FigureNorm> values =
+        norm != nullptr ? norm->figures[static_cast<std::size_t>(figure.figure)] : std::nullopt;
+    if (values) {
+      line.norm = "up to " + format_figure(figure.figure, upper_value(*values));
+      line.is_worse = *value > upper_value(*values);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::string worst_figure_sentence(const LessonResult& result, const Norm& norm) {
+  const FigureDescription* worst = nullptr;
+  double most = -1.0;
+  for (const FigureDescription& figure : kFigures) {
+    const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
+    if (!values || !figure_of(result, figure.figure)) continue;
+    const double by = deviation(result, figure.figure, *values);
+    if (by > most) worst = &figure, most = by;
+  }
+  if (worst == nullptr) return "You did not use the clutch as practised drivers do.";
+  return fmt::format("Not yet as smooth as practised drivers. Farthest off: {}, {} (norm: up to {}).", worst->label,
+                     format_figure(worst->figure, *figure_of(result, worst->figure)),
+                     format_figure(worst->figure, upper_value(*norm.figures[static_cast<std::size_t>(worst->figure)])));
+}
+
+}  // namespace gearshift::lessons

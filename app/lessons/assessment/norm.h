@@ -1,0 +1,75 @@
+// The figures of a run that no stopwatch knows, and how far they are from those of practised drivers.
+//
+// A norm describes practised simulated drivers in one lesson, mode and car. It stands in norms/simulated.toml beside the lesson's
+// file, where `gearshift bench --norms` writes it. Lessons without a norm are judged by their errors only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/lessons/assessment/lesson_result.h"
+
+namespace gearshift::lessons {
+
+// Less is better in every figure. RunFigures describes each of them.
+enum class Figure { clutch_heat, jerk, rev_error, clutch_lead, clutch_lag, path, impulse };
+inline constexpr std::size_t kFigureCount = 7;
+
+// The logarithm of a figure of practised drivers is normally distributed.
+struct FigureNorm {
+  double typical = 1.0;  // geometric mean, in the figure's unit, > 0
+  double spread = 1.0;   // [1] factor of one standard deviation, > 1
+};
+
+struct Norm {
+  std::string lesson;  // key
+  LessonMode mode = LessonMode::by_yourself;
+  std::string car;           // name of the car
+  double lever_way = 0.0;    // [m] shortest way of the lever through the gears of the lesson; tells gates apart
+  double clutch_lead = 0.0;  // [s] mean ShiftRecord::clutch_lead of practised drivers
+  double clutch_lag = 0.0;   // [s] mean ShiftRecord::clutch_lag
+  std::array<std::optional<FigureNorm>, kFigureCount> figures{};  // empty: not every practised run has the figure
+  double limit = 1.0;                                             // [1] largest distance() that passes
+};
+
+// Reads a file of norms. Throws FileError.
+std::vector<Norm> read_norms(const std::filesystem::path& file);
+std::vector<Norm> parse_norms(std::string_view text, const std::string& file_name);
+std::string norms_text(std::span<const Norm> norms);  // the content of such a file
+double rounded_for_norm(double value);                // to the four digits that the file has
+
+// Sets the result's figures, except `jerk_peak`, from its shifts. `norm` may be null; then the times of the clutch are
+// not compared and stay empty.
+void measure_figures(LessonResult& result, const Norm* norm);
+
+double figure_logarithm(Figure figure, double value) noexcept;  // of the value, or of the smallest that counts
+std::optional<double> figure_of(const LessonResult& result, Figure figure) noexcept;
+
+// Root mean square over the norm's figures of how many standard deviations each is worse than typical: 0 to kMaxDeviation.
+// A better figure counts as 0, a missing one as kMaxDeviation. Only practised drivers make a norm, so it needs no
+// model of unskilled ones (one-class classification: Tax, Duin. Support Vector Data Description. 2004).
+double distance(const LessonResult& result, const Norm& norm) noexcept;
+inline constexpr double kMaxDeviation = 5.0;  // [1] one slip must not outweigh all else (engineering value)
+
+// A figure and its norm as text.
+struct FigureLine {
+  std::string_view label;  // "Largest jerk"
+  std::string value;       // "87 m/s³"
+  std::string norm;        // "up to 34": 19 of 20 practised drivers; empty without a norm
+  bool is_worse = false;   // worse than the norm
+};
+std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm);
+
+// One sentence about the figure that is farthest from its norm.
+std::string worst_figure_sentence(const LessonResult& result, const Norm& norm);
+
+// Says on every page with such figures where the norm is from.
+inline constexpr std::string_view kNormOrigin = "The norm is of practised simulated drivers, not of people.";
+
+}  // namespace gearshift::lessons
