@@ -90,7 +90,8 @@ TEST_CASE("each learner has a separate order of guided trials for each lesson") 
     for (int trial = 0; trial < 40; ++trial) {
       orders[i].push_back(
           plan_trial(learner_and_lesson[i].first, learner_and_lesson[i].second, runs, kSomeDay).plan.guidance > 0.0);
-      RunRow run;  // an aborted run has an error of 1, which keeps the gain high
+      RunRow run;  // its errors of the lever keep the gain high
+      run.result.errors = {make_driving_error(ErrorKind::wrong_gear, Severity::very_severe, 1.0, 4.0)};
       run.result.lesson = learner_and_lesson[i].second;
       run.result.end = LessonEnd::aborted;
       run.begun_at = format_utc(kSomeDay);
