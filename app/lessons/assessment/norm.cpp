@@ -17,7 +17,7 @@ namespace {
 constexpr double kNineteenOfTwenty = 1.645;  // [1] standard deviations: 95 % of a normal distribution lie below
 
 struct FigureDescription {
-  Figure figure;
+  RunFigure figure;
   std::string_view key;    // in the file of norms
   std::string_view label;  // for people
   std::string_view unit;
@@ -26,19 +26,19 @@ struct FigureDescription {
   double floor = 0.0;  // smaller values count as this one, because they are below what a person could tell
 };
 
-// In the order of Figure.
+// In the order of RunFigure.
 constexpr std::array<FigureDescription, kFigureCount> kFigures{{
-    {Figure::clutch_heat, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
-    {Figure::jerk, "jerk_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
-    {Figure::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
+    {RunFigure::clutch_heat, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
+    {RunFigure::jerk, "jerk_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
+    {RunFigure::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
      1.0 / haptics::kTurnPerMinute, 0, 1.0},
-    {Figure::clutch_lead, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
-    {Figure::clutch_lag, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
-    {Figure::path, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
-    {Figure::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, 0.01},
+    {RunFigure::clutch_lead, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
+    {RunFigure::clutch_lag, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
+    {RunFigure::path, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
+    {RunFigure::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, 0.01},
 }};
 
-const FigureDescription& figure_description(Figure figure) noexcept {
+const FigureDescription& figure_description(RunFigure figure) noexcept {
   return kFigures[static_cast<std::size_t>(figure)];
 }
 
@@ -71,14 +71,14 @@ Norm read_norm(const haptics::TomlTable& table) {
 }
 
 // Standard deviations by which the figure is worse than typical [1], 0 to kMaxDeviation.
-double deviation(const LessonResult& result, Figure figure, const FigureNorm& norm) noexcept {
+double deviation(const LessonResult& result, RunFigure figure, const FigureNorm& norm) noexcept {
   const std::optional<double> value = figure_of(result, figure);
   if (!value) return kMaxDeviation;
   const double ratio = std::max(*value, figure_description(figure).floor) / norm.typical;
   return std::clamp(std::log(ratio) / std::log(norm.spread), 0.0, kMaxDeviation);
 }
 
-std::string format_figure(Figure figure, double value) {
+std::string format_figure(RunFigure figure, double value) {
   const FigureDescription& shown = figure_description(figure);
   return fmt::format("{:.{}f}{}", shown.scale * value, shown.decimals, shown.unit);
 }
@@ -148,7 +148,7 @@ void measure_figures(LessonResult& result, const Norm* norm) {
   Mean rev, lead, lag, path, impulse;
   for (const ShiftRecord& shift : result.shifts) {
     path.add(std::log(shift.path_efficiency));
-    impulse.add(std::log(std::max(shift.impulse, figure_description(Figure::impulse).floor)));
+    impulse.add(std::log(std::max(shift.impulse, figure_description(RunFigure::impulse).floor)));
     if (shift.missed || shift.to == haptics::kNeutralGear) continue;
     rev.add(shift.rev_error * shift.rev_error);
     if (shift.clutch_time <= 0.0 || norm == nullptr) continue;
@@ -163,28 +163,28 @@ void measure_figures(LessonResult& result, const Norm* norm) {
   figures.impulse = exp_of(impulse.value());
 }
 
-std::optional<double> figure_of(const LessonResult& result, Figure figure) noexcept {
+std::optional<double> figure_of(const LessonResult& result, RunFigure figure) noexcept {
   const RunFigures& figures = result.figures;
   switch (figure) {
-    case Figure::clutch_heat:
+    case RunFigure::clutch_heat:
       return result.slip_energy;
-    case Figure::jerk:
+    case RunFigure::jerk:
       return figures.jerk_peak;
-    case Figure::rev_error:
+    case RunFigure::rev_error:
       return figures.rev_error;
-    case Figure::clutch_lead:
+    case RunFigure::clutch_lead:
       return figures.clutch_lead_error;
-    case Figure::clutch_lag:
+    case RunFigure::clutch_lag:
       return figures.clutch_lag_error;
-    case Figure::path:
+    case RunFigure::path:
       return figures.path_efficiency;
-    case Figure::impulse:
+    case RunFigure::impulse:
       return figures.impulse;
   }
   return std::nullopt;
 }
 
-double figure_logarithm(Figure figure, double value) noexcept {
+double figure_logarithm(RunFigure figure, double value) noexcept {
   return std::log(std::max(value, figure_description(figure).floor));
 }
 

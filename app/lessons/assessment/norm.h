@@ -18,7 +18,7 @@
 namespace gearshift::lessons {
 
 // Less is better in every figure. RunFigures describes each of them.
-enum class Figure { clutch_heat, jerk, rev_error, clutch_lead, clutch_lag, path, impulse };
+enum class RunFigure { clutch_heat, jerk, rev_error, clutch_lead, clutch_lag, path, impulse };
 inline constexpr std::size_t kFigureCount = 7;
 
 // The logarithm of a figure of practised drivers is normally distributed.
@@ -48,8 +48,8 @@ double rounded_for_norm(double value);                // to the four digits that
 // not compared and stay empty.
 void measure_figures(LessonResult& result, const Norm* norm);
 
-double figure_logarithm(Figure figure, double value) noexcept;  // of the value, or of the smallest that counts
-std::optional<double> figure_of(const LessonResult& result, Figure figure) noexcept;
+double figure_logarithm(RunFigure figure, double value) noexcept;  // of the value, or of the smallest that counts
+std::optional<double> figure_of(const LessonResult& result, RunFigure figure) noexcept;
 
 // Root mean square over the norm's figures of how many standard deviations each is worse than typical: 0 to kMaxDeviation.
 // A better figure counts as 0, a missing one as kMaxDeviation. Only practised drivers make a norm, so it needs no

@@ -84,7 +84,7 @@ double roc_auc(std::span<const double> skilled, std::span<const double> unskille
   return wins / static_cast<double>(skilled.size() * unskilled.size());
 }
 
-Estimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept {
+IntervalEstimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept {
   const double auc = roc_auc(skilled, unskilled);
   const auto m = static_cast<double>(skilled.size()), n = static_cast<double>(unskilled.size());
   if (m == 0.0 || n == 0.0) return {auc, 0.0, 1.0};
@@ -104,7 +104,7 @@ Estimate auc_estimate(std::span<const double> skilled, std::span<const double> u
   return {auc, limit(auc, 0.0), limit(auc, 1.0)};
 }
 
-Estimate fraction_estimate(int successes, int trials) noexcept {
+IntervalEstimate fraction_estimate(int successes, int trials) noexcept {
   const double n = trials, p = successes / n, z2 = kNormal95 * kNormal95;
   const double centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
   const double half = kNormal95 * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n)) / (1.0 + z2 / n);

@@ -18,14 +18,14 @@ namespace gearshift::lessons {
 double roc_auc(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
 
 // A figure with its 95 % interval.
-struct Estimate {
+struct IntervalEstimate {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 // Interval of roc_auc() after R. G. Newcombe. Confidence intervals for an effect size measure based on the Mann-Whitney
 // statistic. Part 2. 2006 (method 5). Unlike DeLong's and the bootstrap, it has a width where the classes do not overlap.
-Estimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
+IntervalEstimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
 // `successes` of `trials` as a fraction [1], with Wilson's interval. trials > 0.
-Estimate fraction_estimate(int successes, int trials) noexcept;
+IntervalEstimate fraction_estimate(int successes, int trials) noexcept;
 
 // Skill errors (see skill_of()) of skilled drivers are uniform from 0 to this value [1]. Engineering value.
 inline constexpr double kMaxSkilledError = 0.15;

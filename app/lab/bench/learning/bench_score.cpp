@@ -25,7 +25,9 @@ struct Drives {
   std::vector<double> grades;
   std::vector<double> scores;  // [1] LessonResult::score, negative, so that more is better
   int passed = 0;
-  lessons::Estimate pass_rate() const { return lessons::fraction_estimate(passed, static_cast<int>(grades.size())); }
+  lessons::IntervalEstimate pass_rate() const {
+    return lessons::fraction_estimate(passed, static_cast<int>(grades.size()));
+  }
 };
 
 Drives drive(const lessons::LessonDriveConfig& config, const lessons::Population& population) {
@@ -40,8 +42,8 @@ Drives drive(const lessons::LessonDriveConfig& config, const lessons::Population
   return drives;
 }
 
-BenchRow estimate_row(const std::string& name, const lessons::Estimate& estimate, double scale, const char* unit,
-                      std::optional<double> goal, bool at_least) {
+BenchRow estimate_row(const std::string& name, const lessons::IntervalEstimate& estimate, double scale,
+                      const char* unit, std::optional<double> goal, bool at_least) {
   return {"score", name, scale * estimate.value,
           unit,    goal, at_least,
           kNote,   true, {{"95 % interval from", scale * estimate.low, unit}, {"to", scale * estimate.high, unit}}};

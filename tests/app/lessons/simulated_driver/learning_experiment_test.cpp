@@ -80,14 +80,14 @@ TEST_CASE("the interval of the AUC agrees with DeLong's for many drivers, and ha
     return values;
   };
   const std::vector<double> good = normals(1.0), bad = normals(0.0);
-  const Estimate estimate = auc_estimate(good, bad);
+  const IntervalEstimate estimate = auc_estimate(good, bad);
   // Normal distributions one deviation apart: AUC = Phi(1 / sqrt 2) = 0.760.
   CHECK(estimate.low < 0.760);
   CHECK(estimate.high > 0.760);
   const double half = 1.96 * delong_deviation(good, bad);
   CHECK(estimate.low == doctest::Approx(estimate.value - half).epsilon(0.01));
   CHECK(estimate.high == doctest::Approx(estimate.value + half).epsilon(0.01));
-  const Estimate apart = auc_estimate(std::vector<double>(20, 1.0), std::vector<double>(20, 0.0));
+  const IntervalEstimate apart = auc_estimate(std::vector<double>(20, 1.0), std::vector<double>(20, 0.0));
   CHECK(apart.value == 1.0);
   CHECK(apart.high == doctest::Approx(1.0));
   CHECK(apart.low > 0.8);
@@ -96,7 +96,7 @@ TEST_CASE("the interval of the AUC agrees with DeLong's for many drivers, and ha
 
 TEST_CASE("Wilson's interval of a fraction") {
   // Newcombe. Two-sided confidence intervals for the single proportion. 1998, table I: 81 of 263 and 0 of 20.
-  const Estimate some = fraction_estimate(81, 263), none = fraction_estimate(0, 20);
+  const IntervalEstimate some = fraction_estimate(81, 263), none = fraction_estimate(0, 20);
   CHECK(some.low == doctest::Approx(0.2553).epsilon(1e-3));
   CHECK(some.high == doctest::Approx(0.3662).epsilon(1e-3));
   CHECK(none.low == doctest::Approx(0.0));
