@@ -47,12 +47,12 @@ inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
 inline constexpr HandImpedance kLightHand{0.1, 5.0, 200.0};
 inline constexpr HandImpedance kGripHand{0.15, 10.0, 500.0};
 inline constexpr HandImpedance kArmHand{0.8, 5.5, 568.0};
-// A hand around a handle: two of the three masses of a hand-arm model, whose third one, the arm, is the target here. The
-// values are a choice, of the order of such models: ISO 10068, which has some, was not at hand. No law depends on them,
+// A hand around a handle: two of the three masses of a hand-arm model. The third one, the arm, is replaced by the target.
+// The values are a choice, of the order of such models: ISO 10068, which has some, was not at hand. No law depends on them,
 // because campaigns and benches draw other grips around them (app/lab/contact/contact_campaign.h).
 inline constexpr HandImpedance kElasticHand{0.486, 18.9, 132.0, 0.0267, 207.5, 4368.0};
-// Two fingertips on the knob, each with 6 g, 5 N s/m and 800 N/m, which is a choice, too, before an arm (0.554 kg, 6.45 N
-// s/m, 135 N/m: Scientific Reports 5, srep18004, Fig. 3).
+// Two fingertips on the knob, each with 6 g, 5 N s/m and 800 N/m, which are chosen values, in front of an arm (0.554 kg,
+// 6.45 N s/m, 135 N/m: Scientific Reports 5, srep18004, Fig. 3).
 inline constexpr HandImpedance kPinchHand{0.554, 6.45, 135.0, 0.012, 10.0, 1600.0};
 
 struct NamedHand {

@@ -164,21 +164,25 @@ void check_device(const DeviceSpec& spec);
 // Limits the wanted tuning to what works on this device with every hand of kNamedHands, the bare handle included:
 //   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58, or 0.5 on device springs of more than m / tau^2) and
 //              damping B <= 0.35 m / tau (observer hold: exactly 0.7), with the mass m of the lighter axis and the lag tau
-//              = (delay + 1) * period. The factors were found by a search over hands, impact phases, quantisation, jitter
-//              and plant error.
+//              = (delay + 1) * period. The factors were compared with their neighbours over hands, impact phases,
+//              quantisation, jitter and plant error. On device springs k > 0.35 m / tau^2 the half-sample hold would add
+//              energy: the observer hold replaces it, or the springs render the whole wall.
 //   resolution One encoder count q changes a damping force by at most 3 N (B q / T), and a wall stops a lever of 0.1 m/s
 //              within 3 counts or more. If a count changes the observed velocity by more than 0.125 m/s, the half-sample
 //              hold replaces the observer, with K <= 0.2 m / tau^2.
 //   slew       K <= slew / (T 1 m/s): the force follows a contact at 1 m/s.
 //   stable     The spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K
 //              with `aisle_damping`, with and without `limit_damping`; in free space with both dampings.
+//   swing      With the observer hold, the arm's swing above 10 Hz shrinks to a third in seven half-swings at 1.1 K.
+//              Otherwise the reversal limiter may take it for chatter.
 //   feel       The gate's feel is no stiffer than the wall that carries the proxy.
 //
 // If the device renders walls itself (DeviceSpec::device_wall_stiffness, device_wall_damping), the loop renders the
 // remaining stiffness and damping, and the laws apply to the loop's part. The stability check covers every
 // combination of axis and hand, with and without the device's spring and damper. A TuningLimit gives the values of the
-// whole wall, and its text `law` states how much of it the device renders. Only the loop renders feel, so feel is limited to the stiffness that the laws allow the loop. The
-// observer hold does not use the device damper, because the observer would attribute the damper's force to the hand.
+// whole wall, and its text `law` states how much of it the device renders. Only the loop renders feel, so feel is limited
+// to the stiffness that the laws allow the loop. The observer hold does not use the device damper, because the observer
+// would attribute the damper's force to the hand.
 //
 // With allow_unstable, limits are reported but not applied. Throws std::invalid_argument for options that need
 // allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.

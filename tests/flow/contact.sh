@@ -51,6 +51,19 @@ check "another preset" answers --preset measured
 check "the drawing" answers --svg wall.svg
 check "is whole" grep -q "</svg>" wall.svg
 
+# Weak motors: the swing and the usual pushes stay within their force, and a push beyond it is reported.
+printf 'name = "Weak"\n[lever]\npeak_force_n = 10\ncontinuous_force_n = 5\n' >weak.toml
+answers --preset weak.toml --hand grip --json
+check "weak motors show the wall in motion" json "all(0.95 < z / 5000 < 1.05 for z in wall['re_z_n_per_m'].values())"
+check "their pushes" json "wall['push_n'][1] == 9.5 and wall['re_z_saturated_fraction'] == 0"
+answers --preset weak.toml --hand grip --push 20
+check "a push beyond them" grep -q "The motors (10 N) were at their limit in 100.0 % of the runs" out
+answers --hand grip --speed 0.3 --json
+check "impacts at the chosen speed" json "wall['impact_speeds_m_per_s'] == [0.3] and wall['impact_hand'] == 'bare'"
+cp out first
+answers --hand grip --speed 1 --json
+check "another speed" json "wall['energy_worst_fraction'] != json.load(open('first'))['energy_worst_fraction']"
+
 refuse 2 "--push" --push -1
 refuse 2 "--wall-stiffness: \"0\" is not a number from 1 to 20000" --wall-stiffness 0
 refuse 2 "--delay: \"9\" is not a whole number from 0 to 8" --delay 9

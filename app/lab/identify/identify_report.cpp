@@ -144,11 +144,11 @@ Json axis_json(const AxisIdentification& axis) {
   for (const Quantity& q : kQuantities) {
     json[q.key] = {{"found", axis.fit.model.*q.value},
                    {"uncertainty", axis.fit.deviation.*q.value},
-                   {"device_says", axis.nominal.*q.value}};
+                   {"nominal", axis.nominal.*q.value}};
   }
   json["dry_friction_n"] = {{"found", axis.fit.friction},
                             {"uncertainty", axis.fit.friction_deviation},
-                            {"device_says", axis.nominal_friction}};
+                            {"nominal", axis.nominal_friction}};
   json["misfit"] = axis.fit.misfit;
   json["damping_ratio"] = has_spring(axis.fit) ? Json(haptics::damping_ratio(axis.fit.model)) : Json(nullptr);
   json["poles_hz"] = pole_frequencies(axis.fit.model);
