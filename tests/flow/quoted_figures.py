@@ -25,9 +25,6 @@ class Rows:
     def all(self, family, name):
         return [float(row["value"]) for (f, n), row in self.rows.items() if f == family and re.search(name, n)]
 
-    def all_beside(self, family, what):
-        return [self.beside(*key, what) for key in self.rows if key[0] == family and f"{what} = " in self.rows[key]["beside"]]
-
     def missed(self, *names):
         """The ending of the goal's cell."""
         return ": not met" if any(self.rows[name]["verdict"].startswith("NOT MET") for name in names) else ""
@@ -64,7 +61,9 @@ def quoted(rows):
     yield "{:.3f}, {:.3f}, {:.3f} mm; with three".format(*(ripple(f"1000 Hz, delay {n}") for n in (1, 2, 3)))
     unchecked = ("contact", "unchecked 5000 N/m wall, reversal limiter only, 100 Hz: final peak-to-peak motion, maximum")
     yield "{:.2f} mm | 0.40 mm{} |".format(of(*unchecked), rows.missed(unchecked))
-    yield "at least {:.1f} % | 95 % |".format(min(rows.all_beside("contact", "displayed")))
+    shown = [beside(*key, "displayed") for key, row in rows.rows.items()
+             if key[0] == "contact" and "displayed = " in row["beside"] and not key[1].startswith("20 kN/m")]
+    yield "at least {:.1f} % | 95 % |".format(min(shown))
     yield "{:.1f}, {:.1f}, {:.1f} % | 95 % |".format(*in_motion)
     yield "it takes {:.0f} to {:.0f} % of it, and {:.0f} to {:.0f} % at every other".format(
         min(fast), max(fast), min(set(others) - set(fast)), max(others))
