@@ -146,9 +146,8 @@ Json axis_json(const AxisIdentification& axis) {
                    {"uncertainty", axis.fit.deviation.*q.value},
                    {"nominal", axis.nominal.*q.value}};
   }
-  json["dry_friction_n"] = {{"found", axis.fit.friction},
-                            {"uncertainty", axis.fit.friction_deviation},
-                            {"nominal", axis.nominal_friction}};
+  json["dry_friction_n"] = {
+      {"found", axis.fit.friction}, {"uncertainty", axis.fit.friction_deviation}, {"nominal", axis.nominal_friction}};
   json["misfit"] = axis.fit.misfit;
   json["damping_ratio"] = has_spring(axis.fit) ? Json(haptics::damping_ratio(axis.fit.model)) : Json(nullptr);
   json["poles_hz"] = pole_frequencies(axis.fit.model);

@@ -1,27 +1,14 @@
 #include "app/lessons/assessment/mastery.h"
 
-#include <optional>
-#include <string>
+#include <algorithm>
 
 namespace gearshift::lessons {
 
 Mastery mastery_of(std::span<const GradedTrial> past, std::string_view lesson) {
-  std::optional<std::string> first_day;  // of the first pass
-  bool has_driven_another = false;       // since the first pass
-  for (const GradedTrial& trial : past) {
-    if (trial.lesson != lesson) {
-      has_driven_another = has_driven_another || first_day;
-      continue;
-    }
-    if (!trial.passed) continue;
-    const std::string day = trial.begun_at.substr(0, 10);  // "2026-01-02"
-    if (!first_day) {
-      first_day = day;
-    } else if (has_driven_another || day != *first_day) {
-      return Mastery::mastered;
-    }
-  }
-  return first_day ? Mastery::passed_once : Mastery::not_passed;
+  if (was_confirmed(past, lesson, &GradedTrial::lesson)) return Mastery::mastered;
+  const bool has_pass = std::any_of(past.begin(), past.end(),
+                                    [&](const GradedTrial& trial) { return trial.passed && trial.lesson == lesson; });
+  return has_pass ? Mastery::passed_once : Mastery::not_passed;
 }
 
 std::string_view mastery_sentence(Mastery mastery) noexcept {

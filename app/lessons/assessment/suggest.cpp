@@ -55,12 +55,12 @@ bool is_weak(const RecentResults& form) noexcept {
   return form.failed_last && 2 * form.failed >= form.runs;
 }
 
-bool was_confirmed(std::span<const GradedTrial> past, std::string_view task) {
-  const auto is_pass = [&](const GradedTrial& r) { return r.passed && r.task == task; };
+bool was_confirmed(std::span<const GradedTrial> past, std::string_view name, std::string GradedTrial::*of) {
+  const auto is_pass = [&](const GradedTrial& trial) { return trial.passed && trial.*of == name; };
   const auto first = std::find_if(past.begin(), past.end(), is_pass);
   bool has_other = false;
   for (auto trial = first; trial != past.end(); ++trial) {
-    has_other = has_other || trial->task != task;
+    has_other = has_other || (*trial).*of != name;
     if (trial != first && is_pass(*trial) &&
         (has_other || trial->begun_at.substr(0, 10) != first->begun_at.substr(0, 10)))
       return true;

@@ -77,8 +77,10 @@ std::optional<RecentResults> recent_results(std::span<const GradedTrial> past, s
 // was passed after failed ones is an improvement.
 bool is_weak(const RecentResults& form) noexcept;
 
-// True if the task was passed twice, the second time on another day or after a graded run of another task.
-bool was_confirmed(std::span<const GradedTrial> past, std::string_view task);
+// True if the task of this name, or with &GradedTrial::lesson the lesson, was passed twice, the second time on another
+// day or after a graded run of another one.
+bool was_confirmed(std::span<const GradedTrial> past, std::string_view name,
+                   std::string GradedTrial::*of = &GradedTrial::task);
 
 struct Tries {
   int passed = 0, failed = 0;                 // graded
