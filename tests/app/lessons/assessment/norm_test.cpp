@@ -134,7 +134,7 @@ TEST_CASE("each shipped lesson has a norm in both modes, for the car that it is 
       const Norm* norm = norm_of(lesson, mode);
       REQUIRE(norm != nullptr);  // `gearshift bench --norms` makes it
       CHECK(norm->car == (lesson.car.empty() ? "hatchback" : lesson.car));
-      CHECK(norm->lever_way > 0.0);
+      CHECK((norm->lever_way > 0.0 || key == "stalled_in_a_junction"));  // which stays in first
     }
   }
   CHECK(norm_of(Lesson{}, LessonMode::follow_me) == nullptr);

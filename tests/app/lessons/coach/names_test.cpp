@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/app/lessons/coach/coach_bench.h"
+#include "tests/support/history_version_1.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::lessons;
@@ -122,8 +123,8 @@ TEST_CASE("learners joined in an older file are reported once") {
   History(bench.config.history).find_or_add_learner("Ada");
   sqlite3* older = nullptr;
   REQUIRE(sqlite3_open(bench.config.history.c_str(), &older) == SQLITE_OK);
-  REQUIRE(sqlite3_exec(older, "INSERT INTO learner (name, made_at) VALUES ('Ada ', ''); PRAGMA user_version = 1",
-                       nullptr, nullptr, nullptr) == SQLITE_OK);
+  const std::string text = std::string("INSERT INTO learner (name, made_at) VALUES ('Ada ', '');") + kToHistoryVersion1;
+  REQUIRE(sqlite3_exec(older, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(older);
   {
     Coach coach(bench.config);

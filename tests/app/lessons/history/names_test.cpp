@@ -16,6 +16,7 @@
 
 #include "app/lessons/history/history.h"
 #include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/history_version_1.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::lessons;
@@ -65,11 +66,7 @@ void write_version_1(const std::filesystem::path& file, const Names& names) {
   }
   for (std::size_t i = 0; i < names.size(); ++i)
     execute(file, "UPDATE learner SET name = '" + names[i] + "' WHERE name = 'learner " + std::to_string(i) + "'");
-  execute(file, "ALTER TABLE driving_error DROP COLUMN speed_unit");  // the columns of version 2
-  for (const char* column : {"jerk_peak_m_per_s3", "rev_error_rad_per_s", "clutch_lead_error_s", "clutch_lag_error_s",
-                             "path_efficiency", "impulse_n_s", "graded_by", "score"})
-    execute(file, std::string("ALTER TABLE lesson_run DROP COLUMN ") + column);
-  execute(file, "PRAGMA user_version = 1");
+  execute(file, kToHistoryVersion1);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "app/lessons/history/history.h"
 #include "app/lessons/history/schema.h"
 #include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/history_version_1.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::lessons;
@@ -109,11 +110,7 @@ TEST_CASE("a file of version 1 is upgraded: its runs keep their verdict, which c
   }
   sqlite3* old = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
-  std::string sql = "PRAGMA user_version = 1;";
-  for (const char* column : {"jerk_peak_m_per_s3", "rev_error_rad_per_s", "clutch_lead_error_s", "clutch_lag_error_s",
-                             "path_efficiency", "impulse_n_s", "graded_by", "score"})
-    sql += std::string("ALTER TABLE lesson_run DROP COLUMN ") + column + ";";
-  REQUIRE(sqlite3_exec(old, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(old, kToHistoryVersion1, nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(old);
   for (const HistoryUse use : {HistoryUse::read, HistoryUse::write}) {
     History history(file, system_seconds, kHistoryLockTimeout, use);
