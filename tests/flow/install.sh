@@ -25,7 +25,7 @@ as_in_the_source() { # compares every installed asset with its source
 }
 check "their files equal those in the source tree" as_in_the_source
 check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml" -o -name "*.glb" | wc -l)" -eq \
-  "$(ls "$source"/assets/{bindings,cars,gates,lessons,presets}/*.toml "$source"/assets/models/*.glb | wc -l)"
+  "$(ls "$source"/assets/{bindings,cars,gates,lessons,lessons/norms,presets}/*.toml "$source"/assets/models/*.glb | wc -l)"
 check "nothing else" fails grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
   ! -path "./share/doc/*" ! -path "./share/man/*" ! -path "./share/lintian/*" \
   ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")

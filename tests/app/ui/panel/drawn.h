@@ -109,6 +109,13 @@ inline bool is_drawn(const std::string& wanted) {
                      [&](const DrawnText& text) { return text.text == without_blanks(wanted); });
 }
 
+// True if a line of text that begins so is drawn; the rest of the text may be wrapped.
+inline bool is_begun(const std::string& wanted) {
+  const std::vector<DrawnText> texts = drawn_texts();
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const DrawnText& text) { return text.text.starts_with(without_blanks(wanted)); });
+}
+
 // The texts that are to the right of `label` on the same line, from left to right.
 inline std::vector<std::string> right_of(const std::string& label) {
   std::vector<DrawnText> texts = drawn_texts();

@@ -125,7 +125,7 @@ TEST_CASE("a typed name that a learner has already is asked apart") {
   CHECK_FALSE(has<ChooseLearner>(rig.click("learner_other")));
   rig.frame();
   CHECK(rig.panel.has_keyboard());
-  CHECK(is_drawn("Bert is another learner: add a surname, for example."));
+  CHECK(is_begun("Bert is another learner"));
   CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));  // the same name again is asked again
   rig.frame();
   CHECK(rig.panel.control_rect("learner_same").has_value());
@@ -160,7 +160,7 @@ TEST_CASE(
   rename(U"bert");
   CHECK_FALSE(has<RenameLearner>(rig.press(kEnter)));
   rig.frame();
-  CHECK(is_drawn("Bert is another learner: add a surname, for example."));
+  CHECK(is_begun("Bert is another learner"));
   rig.press(kEscape);
   rig.frame();
   CHECK(is_drawn("Ada Example"));
