@@ -99,6 +99,7 @@ class LeverInForce {
   // `controls` or as `keys` move it in the car's time, whichever is further down.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
                   const haptics::PedalKeys& keys = {});
+  bool are_pedal_keys_held() const { return keys_ != haptics::PedalKeys{}; }  // by the user
   // The instructor holds clutch and brake after a lesson, until release_car() or the next lever.
   void hold_car() { is_car_held_ = true; }
   void release_car() { is_car_held_ = false; }

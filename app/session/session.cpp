@@ -104,6 +104,7 @@ void Session::follow(const runtime::RuntimeFrame& frame) {
   events_ = frame.events;
   for (haptics::HapticEvent& event : events_) event.time_ns -= start_ns_;
   if (!frame.cycles.empty()) newest_controls_ = frame.cycles.back().controls;
+  if (lever_.are_pedal_keys_held()) director_.coach().judge_by_errors();
   if (director_.add(frame.cycles)) end_lesson();
   if (const std::optional<std::string> problem = director_.coach().take_problem()) message_ = *problem;
   history_ = plot_samples(frame.cycles);

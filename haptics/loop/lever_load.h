@@ -36,6 +36,7 @@ struct Pedals {
 // Keys that press a pedal and are held now. A load that models the pedals moves them, see LeverLoad::move_pedals().
 struct PedalKeys {
   bool throttle = false, throttle_light = false, brake = false, clutch = false, clutch_hold = false;
+  bool operator==(const PedalKeys&) const = default;
 };
 
 // The driver's controls except the lever, and the settings of a lesson. The frame thread writes them as one value.

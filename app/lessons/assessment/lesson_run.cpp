@@ -365,6 +365,10 @@ void LessonRun::mark_forceless() {
   mark_incomplete();
 }
 
+void LessonRun::judge_by_errors() {
+  if (!is_over()) state_->norm = nullptr;
+}
+
 void LessonRun::leave() {
   if (!is_over()) state_->end(LessonEnd::left);
 }

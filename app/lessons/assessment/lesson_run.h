@@ -44,6 +44,7 @@ class LessonRun {
   void add(const vehicle::DriveSample& sample);  // call every cycle, in order
   void mark_incomplete();                        // call if samples were lost: the run gets no grade
   void mark_forceless();                         // call if the lever had no forces: the run gets no grade
+  void judge_by_errors();                        // call if keys move the pedals: they cannot reach the norm
   void leave();                                  // call when the learner leaves the lesson
 
   const LessonView& view() const noexcept;

@@ -203,6 +203,12 @@ const LessonRun& Coach::assess(const vehicle::DriveSample& sample) {
   return *state_->run;
 }
 
+void Coach::judge_by_errors() {
+  if (!state_->run) return;
+  state_->run->judge_by_errors();
+  state_->view.norm = state_->run->norm();
+}
+
 void Coach::leave() {
   state_->leave();
 }

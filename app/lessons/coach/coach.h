@@ -73,7 +73,8 @@ class Coach {
   // follow at once; the next add(), with or without samples, updates the phase and saves results. Throws
   // std::logic_error if no lesson is running.
   const LessonRun& assess(const vehicle::DriveSample& sample);
-  void leave();  // ends the lesson early; the phase becomes `over`
+  void judge_by_errors();  // call if keys move the pedals, see LessonRun
+  void leave();            // ends the lesson early; the phase becomes `over`
   // Removes the recording's path from the current or last trial and from the history.
   void clear_recording();
 

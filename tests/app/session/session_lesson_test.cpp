@@ -294,6 +294,26 @@ TEST_CASE("automatic driving is not saved for the learner; after the user takes 
   CHECK(History(rig.history).runs(History(rig.history).find_learner("Ada").value().id).size() == 1);
 }
 
+TEST_CASE("a run is judged by the norm until a key moves a pedal, and then by its errors only") {
+  for (const bool by_key : {false, true}) {
+    LessonRig rig;
+    Session session(rig.choice("moving_off", "grip"));
+    session.lever().set_driver({}, {}, {.clutch = true});  // before the lesson
+    go(session, 0.1);
+    session.lever().set_driver({}, {});
+    go(session, 0.1);
+    session.apply(BeginLesson{});
+    CHECK(session.coach().view().norm != nullptr);
+    DriverControls presses;
+    presses.pedals.clutch = 1.0;
+    session.lever().set_driver({}, by_key ? DriverControls{} : presses, {.clutch = by_key});
+    go(session, 0.1);
+    session.lever().set_driver({}, {});
+    go(session, 0.1);
+    CHECK((session.coach().view().norm == nullptr) == by_key);
+  }
+}
+
 TEST_CASE("without a learner nothing is saved, and lessons still work") {
   LessonRig rig;
   SessionChoice choice = rig.choice("moving_off");
