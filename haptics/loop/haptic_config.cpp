@@ -35,8 +35,7 @@ constexpr double kFastSwing = 10.0;       // [Hz] the reversal limiter may take 
 constexpr double kHalfSwings = 7.0;       // [1] ... of which it looks at so many half-swings
 constexpr double kSwingAccuracy = 1e-4;   // [1] relative, of the stiffness that this allows
 constexpr NamedHand kHeaviestHand = kNamedHands.back();
-constexpr double kSwingDecay =
-    1.0 / 3.0;  // [1] in this time it must shrink to this fraction; the limiter asks for half
+constexpr double kSwingDecay = 1.0 / 3.0;  // [1] ... and must shrink to this fraction; the limiter asks for half
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kCoarseLaw =
     "with so coarse an encoder, the half-sample hold is quiet only if K <= 0.2 m / tau^2, with tau = (delay + 1) T";

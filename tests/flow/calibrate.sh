@@ -85,4 +85,5 @@ for file in map(pathlib.Path, sys.argv[1:]):
         low, high = allowed.get(key, (-1e9, 1e9))
         assert low <= float(value) <= high, f"{file.name}: {key} = {value}"
 END
+[ $failed = 0 ] || tail -n 15 calibrate_*.txt calibrate_*.err
 finish

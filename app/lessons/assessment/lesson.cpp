@@ -37,7 +37,7 @@ constexpr double kPedalPatience = 6.0;     // [s]
 // (up to 2200 rpm). Engineering values.
 constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] factors for the lower and upper end of the band
 
-constexpr double kSameWay = 0.01;  // [1] ways of the lever in one gate differ by less; in two gates by more
+constexpr double kSamePath = 0.01;  // [1] paths of the lever in one gate differ by less; in two gates by more
 
 // Labels from reverse to the highest gear: "R", "N", "1", "2", ...
 const std::vector<std::string>& gear_labels() {
@@ -353,20 +353,20 @@ const Norm* norm_of(const Lesson& lesson, LessonMode mode) noexcept {
 const Norm* norm_of(const Lesson& lesson, LessonMode mode, const vehicle::CarSpec& car, const haptics::Gate& gate) {
   const Norm* norm = norm_of(lesson, mode);
   const bool fits = norm != nullptr && norm->car == car.name &&
-                    std::abs(lever_way(lesson, gate) - norm->lever_way) <= kSameWay * norm->lever_way;
+                    std::abs(lesson_path_length(lesson, gate) - norm->path_length) <= kSamePath * norm->path_length;
   return fits ? norm : nullptr;
 }
 
-double lever_way(const Lesson& lesson, const haptics::Gate& gate) {
-  double way = 0.0;
+double lesson_path_length(const Lesson& lesson, const haptics::Gate& gate) {
+  double length = 0.0;
   glm::dvec2 at = haptics::rest_position(gate, lesson.start.gear);
   for (const LessonStep& step : lesson.steps) {
     if (!step.until.gear) continue;
     const glm::dvec2 next = haptics::rest_position(gate, *step.until.gear);
-    way += shortest_path_length(gate, at, next);
+    length += shortest_path_length(gate, at, next);
     at = next;
   }
-  return way;
+  return length;
 }
 
 Lesson parse_lesson(std::string_view text, const std::string& file_name) {

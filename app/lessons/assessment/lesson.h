@@ -108,11 +108,11 @@ std::string text_in_unit(std::string_view text, vehicle::SpeedUnit unit);
 // The lesson's norm in this mode; null if it has none.
 const Norm* norm_of(const Lesson& lesson, LessonMode mode) noexcept;
 
-// The same for a run with this car and gate; null if the norm is of another car, or of a gate with other ways.
+// The same for a run with this car and gate; null if the norm is of another car, or of a gate with other paths.
 const Norm* norm_of(const Lesson& lesson, LessonMode mode, const vehicle::CarSpec& car, const haptics::Gate& gate);
 
-// Shortest way of the lever from the lesson's first gear through all gears that its steps wait for [m].
-double lever_way(const Lesson& lesson, const haptics::Gate& gate);
+// Length of the lever's shortest path from the lesson's first gear through all gears that its steps wait for [m].
+double lesson_path_length(const Lesson& lesson, const haptics::Gate& gate);
 
 // Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band, with the
 // clutch torque that holds this car on the slope, where a step waits for it, and with texts in the car's unit of speed.

@@ -1,4 +1,4 @@
-// Whether a lesson is mastered: one pass may be luck, or a good day.
+// Mastery of a lesson takes two passes, because one may be luck, or a good day.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ enum class Mastery {
 // `past`: the learner's graded trials, oldest first.
 Mastery mastery_of(std::span<const GradedTrial> past, std::string_view lesson);
 
-// What the learner is told, for example "Passed once. Pass it again tomorrow or after another lesson."
+// Text for the learner, for example "Passed once. Pass it again tomorrow or after another lesson."
 std::string_view mastery_sentence(Mastery mastery) noexcept;
 
 }  // namespace gearshift::lessons

@@ -55,7 +55,7 @@ Norm read_norm(const haptics::TomlTable& table) {
   norm.lesson = table.text("lesson");
   norm.mode = table.choice("mode", mode_keys()) == mode_keys()[0] ? LessonMode::follow_me : LessonMode::by_yourself;
   norm.car = table.text("car");
-  norm.lever_way = table.number("lever_way_m", kPositive);
+  norm.path_length = table.number("path_length_m", kPositive);
   norm.clutch_lead = table.number("clutch_lead_s", kTime);
   norm.clutch_lag = table.number("clutch_lag_s", kTime);
   norm.limit = table.number("limit", {1e-3, kMaxDeviation});
@@ -128,11 +128,12 @@ std::string norms_text(std::span<const Norm> norms) {
       "# and the largest distance from them that passes. `gearshift bench --norms FILE` wrote this file.\n";
   for (const Norm& norm : norms) {
     text += fmt::format(
-        "\n[[norm]]\nlesson = {}\nmode = {}\ncar = {}\nlever_way_m = {}\nclutch_lead_s = {}\nclutch_lag_s = {}\nlimit "
+        "\n[[norm]]\nlesson = {}\nmode = {}\ncar = {}\npath_length_m = {}\nclutch_lead_s = {}\nclutch_lag_s = "
+        "{}\nlimit "
         "= "
         "{}\n",
         haptics::toml_string(norm.lesson), haptics::toml_string(to_string(norm.mode)), haptics::toml_string(norm.car),
-        haptics::toml_number(norm.lever_way), haptics::toml_number(norm.clutch_lead),
+        haptics::toml_number(norm.path_length), haptics::toml_number(norm.clutch_lead),
         haptics::toml_number(norm.clutch_lag), haptics::toml_number(norm.limit));
     for (const FigureDescription& figure : kFigures) {
       const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];

@@ -1,4 +1,4 @@
-// The figures of a run that no stopwatch knows, and how far they are from those of practised drivers.
+// Figures of how smoothly a lesson was driven, and how far they are from those of practised drivers.
 //
 // A norm describes practised simulated drivers in one lesson, mode and car. It stands in norms/simulated.toml beside the lesson's
 // file, where `gearshift bench --norms` writes it. Lessons without a norm are judged by their errors only.
@@ -31,7 +31,7 @@ struct Norm {
   std::string lesson;  // key
   LessonMode mode = LessonMode::by_yourself;
   std::string car;           // name of the car
-  double lever_way = 0.0;    // [m] shortest way of the lever through the gears of the lesson; tells gates apart
+  double path_length = 0.0;  // [m] shortest path of the lever through the lesson's gears; differs between gates
   double clutch_lead = 0.0;  // [s] mean ShiftRecord::clutch_lead of practised drivers
   double clutch_lag = 0.0;   // [s] mean ShiftRecord::clutch_lag
   std::array<std::optional<FigureNorm>, kFigureCount> figures{};  // empty: not every practised run has the figure

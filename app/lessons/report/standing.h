@@ -1,4 +1,4 @@
-// What a learner can do, task by task, as an instructor says it.
+// A learner's standing in each task, in an instructor's words.
 #pragma once
 
 #include <cstdint>

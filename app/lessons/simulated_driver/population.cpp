@@ -124,7 +124,7 @@ Norm derive_norm(const LessonDriveConfig& drive, LessonMode mode) {
   norm.lesson = drive.lesson.key;
   norm.mode = mode;
   norm.car = drive.car.name;
-  norm.lever_way = rounded_for_norm(lever_way(drive.lesson, driven_gate(drive.gate)));
+  norm.path_length = rounded_for_norm(lesson_path_length(drive.lesson, driven_gate(drive.gate)));
   norm.clutch_lead = rounded_for_norm(mean_time(results, &ShiftRecord::clutch_lead));
   norm.clutch_lag = rounded_for_norm(mean_time(results, &ShiftRecord::clutch_lag));
   for (LessonResult& result : results) measure_figures(result, &norm);

@@ -136,6 +136,17 @@ inline double hill_torque(const ScriptedDrive& d, int gear = 1) {
   return std::abs(weight / (vehicle::shaft_per_road(d.car, gear) * d.car.gearbox.efficiency));
 }
 
+// Releases the clutch until it holds the car.
+inline void clutch_to_hold(ScriptedDrive& d) {
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
+  d.until(
+      [&] {
+        d.feet.pedals.clutch -= 0.1e-3;
+        return d.now().clutch_torque > 1.05 * hill_torque(d);
+      },
+      5.0);
+}
+
 // Releases the clutch until it transmits enough torque, and only then releases the handbrake.
 inline void hill_start(ScriptedDrive& d) {
   Able a{d};
@@ -167,13 +178,7 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   d.lever(1);
   d.press(d.feet.pedals.brake, 0.4, 0.2);
   d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
-  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
-  d.until(
-      [&] {
-        d.feet.pedals.clutch -= 0.1e-3;
-        return d.now().clutch_torque > 1.05 * hill_torque(d);
-      },
-      5.0);
+  clutch_to_hold(d);
   d.feet.pedals.brake = 0.0;
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);
@@ -194,13 +199,7 @@ inline void hill_start_on_the_foot_brake(ScriptedDrive& d) {
   d.press(d.feet.pedals.brake, 0.6, 0.2);
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
-  d.until(
-      [&] {
-        d.feet.pedals.clutch -= 0.1e-3;
-        return d.now().clutch_torque > 1.05 * hill_torque(d);
-      },
-      5.0);
+  clutch_to_hold(d);
   d.press(d.feet.pedals.brake, 0.0, 0.15);
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);

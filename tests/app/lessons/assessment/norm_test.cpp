@@ -31,7 +31,7 @@ constexpr const char* kFile = R"([[norm]]
 lesson = "a"
 mode = "follow_me"
 car = "hatchback"
-lever_way_m = 0.125
+path_length_m = 0.125
 clutch_lead_s = 0.1
 clutch_lag_s = 0.3
 limit = 1.5
@@ -121,7 +121,7 @@ TEST_CASE("a file of norms is read as it was written, and a bad one is refused w
   refused(kFile, "limit = 1.5", "limit = 0", "norms.toml:8: limit = 0");
   refused(kFile, "spread = 2 ", "spread = 0.5 ", "norms.toml:9: spread = 0.5");
   refused(kFile, "follow_me", "guided", "norms.toml:3: mode");
-  refused(kFile, "lever_way_m", "lever_way", "lever_way_m");
+  refused(kFile, "path_length_m", "path_length", "path_length_m");
   CHECK(rounded_for_norm(1234.56) == 1235.0);
   CHECK(rounded_for_norm(-0.0123456) == -0.01235);
 }
@@ -134,7 +134,7 @@ TEST_CASE("each shipped lesson has a norm in both modes, for the car that it is 
       const Norm* norm = norm_of(lesson, mode);
       REQUIRE(norm != nullptr);  // `gearshift bench --norms` makes it
       CHECK(norm->car == (lesson.car.empty() ? "hatchback" : lesson.car));
-      CHECK((norm->lever_way > 0.0 || key == "stalled_in_a_junction"));  // which stays in first
+      CHECK((norm->path_length > 0.0 || key == "stalled_in_a_junction"));  // which stays in first
     }
   }
   CHECK(norm_of(Lesson{}, LessonMode::follow_me) == nullptr);

@@ -96,13 +96,7 @@ TEST_CASE("impossible values in the file are read as possible ones, or not at al
     CAPTURE(value);
     const TempFolder folder;
     const auto file = folder / "history.db";
-    std::int64_t ada = 0;
-    {
-      History history(file);
-      ada = history.find_or_add_learner("Ada");
-      const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
-      history.end_run(run, some_result(3));
-    }
+    const std::int64_t ada = write_one_run(file, 3);
     std::string text;
     const auto spoil = [&](const std::string& table, const std::string& field, const std::string& where) {
       text.append("UPDATE ")

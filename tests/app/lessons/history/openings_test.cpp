@@ -101,13 +101,7 @@ TEST_CASE("a file of a newer version, left with its log by a killed program, is 
 TEST_CASE("a file of version 1 is upgraded: its runs keep their verdict, which counts as by the old rule") {
   const TempFolder folder;
   const auto file = folder / "history.db";
-  std::int64_t ada = 0;
-  {
-    History history(file);
-    ada = history.find_or_add_learner("Ada");
-    const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
-    history.end_run(run, some_result(2));
-  }
+  const std::int64_t ada = write_one_run(file, 2);
   sqlite3* old = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
   REQUIRE(sqlite3_exec(old, kToHistoryVersion1, nullptr, nullptr, nullptr) == SQLITE_OK);

@@ -50,6 +50,14 @@ inline lessons::LessonResult some_result(int shifts) {
   return result;
 }
 
+// Writes a history with one run of Ada's. Returns her number.
+inline std::int64_t write_one_run(const std::filesystem::path& file, int shifts) {
+  lessons::History history(file);
+  const std::int64_t ada = history.find_or_add_learner("Ada");
+  history.end_run(history.begin_run(history.begin_session(ada, "1.0"), some_result(0), ""), some_result(shifts));
+  return ada;
+}
+
 // Returns the comments on the learners' run with this number.
 inline std::vector<lessons::CommentRow> comments_of(lessons::History& history, std::int64_t run) {
   for (const lessons::LearnerRow& learner : history.learners()) {

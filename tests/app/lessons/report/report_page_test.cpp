@@ -262,7 +262,7 @@ TEST_CASE("grades that still rise towards the best one are called so: the unboun
   CHECK(std::abs(now - held->at(11.0)) <= 0.05);
 }
 
-// What the sentence says of falling grades, and of grades that no longer change.
+// The sentence describes falling grades, and grades that no longer change.
 TEST_CASE("falling grades and grades that have settled are described as such") {
   LearnerHistory history = learner(20);
   for (std::size_t i = 0; i < 20; ++i)
