@@ -148,7 +148,6 @@ class Calibrator {
   bool is_stiff(const PulseFit& found, std::size_t axis) const;
   bool spring_helps(StickRig& rig) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
-  static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const;
   std::string find_dampers();

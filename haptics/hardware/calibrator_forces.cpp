@@ -65,10 +65,20 @@ constexpr std::array kLowerLevels{0.5, 0.4, 0.3};   // [1] tried if the force at
 constexpr double kEven = 0.15;                      // [1] largest difference of the force per magnitude
 constexpr double kSameGain = 0.04;          // [1] difference of two pushes over their sum, if a third is not needed
 constexpr double kDoublePushMotion = 0.10;  // [1] of a push and a push back, fraction of the axis's range
+constexpr std::size_t kDoublePushSteps = 3;  // there, back, and off; fewer were seen if the thread was late
 constexpr double kMinPushTime = 0.006, kMaxPushTime = 0.04;  // [s]
 constexpr std::int64_t kDoubleCoastTime = 200'000'000;       // [ns]
 
 constexpr std::array kNames{"select", "shift"};
+
+// The result of a fit to the motion of this axis. Throws CalibrationRefused if it cannot be fitted.
+auto fitted(const std::string& name, const auto& fit) {
+  try {
+    return fit();
+  } catch (const std::invalid_argument& error) {
+    throw CalibrationRefused(name + " cannot be measured, because " + error.what());
+  }
+}
 
 class OneSided : public EffectsRefused {
   using EffectsRefused::EffectsRefused;
@@ -476,6 +486,7 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickComman
   const std::int64_t begin = rig.latest().now_ns;
   StickCommand on = rest;
   on.constant[place.motor] = magnitude;
+  on.push_time = 1e-9 * kPulseTime;
   Pulse measured;
   std::int64_t on_ns = 0, off_ns = 0;
   bool pushing = true;
@@ -521,23 +532,15 @@ PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const 
   while (fits.size() < kMaxPairs) {
     pairs.push_back(pulses(rig, place, rest, magnitude));
     rig.step();  // switches the motors off, because a command would expire during the fit
-    fits.push_back(fit_of(pairs.back(), name));
+    fits.push_back(fitted(name, [&] { return fit_pulses(pairs.back()); }));
     for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
       if (!fits_agree(fits[i], fits.back())) continue;
       const Pulse four[] = {pairs[i][0], pairs[i][1], pairs.back()[0], pairs.back()[1]};
-      return validated(fit_of(four, name), axis, name);
+      return validated(fitted(name, [&] { return fit_pulses(four); }), axis, name);
     }
   }
   validated(fits.back(), axis, name);
   throw CalibrationRefused(name + " responds differently to each push. Take your hands off the lever");
-}
-
-PulseFit Calibrator::fit_of(std::span<const Pulse> pulses, const std::string& name) {
-  try {
-    return fit_pulses(pulses);
-  } catch (const std::invalid_argument& error) {
-    throw CalibrationRefused(name + " cannot be measured, because " + error.what());
-  }
 }
 
 PulseFit Calibrator::validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name) {
@@ -599,9 +602,11 @@ double Calibrator::gain_at(StickRig& rig, std::size_t axis, double magnitude) {
   std::array<std::vector<double>, 2> gains;
   for (std::size_t tries = 0; tries < kMaxPairs; ++tries) {
     for (std::size_t i = 0; i < 2; ++i) {
-      const Pulse pushed = double_push(rig, axis, i == 0 ? magnitude : -magnitude);
+      Pulse pushed = double_push(rig, axis, i == 0 ? magnitude : -magnitude);
+      for (std::size_t late = 0; late < kMaxPairs && pushed.steps.size() < kDoublePushSteps; ++late)
+        pushed = double_push(rig, axis, i == 0 ? magnitude : -magnitude);
       rig.step();  // switches the motors off, because a command would expire during the fit
-      gains[i].push_back(gain_of(pushed, *known_[axis]));
+      gains[i].push_back(fitted(kNames[axis], [&] { return gain_of(pushed, *known_[axis]); }));
     }
     const double there = quantile(gains[0], 0.5), back = quantile(gains[1], 0.5);
     const double tolerance = tries == 0 ? kSameGain : kEven;
@@ -620,6 +625,7 @@ Pulse Calibrator::double_push(StickRig& rig, std::size_t axis, double magnitude)
   const auto length = static_cast<std::int64_t>(1e9 * std::clamp(seconds, kMinPushTime, kMaxPushTime));
   const std::int64_t begin = rig.latest().now_ns;
   StickCommand command = idle_command();
+  command.push_time = 1e-9 * static_cast<double>(length);  // a full force must not last as long as this thread is late
   Pulse measured;
   std::int64_t first_ns = 0;
   double sent = 0.0;

@@ -188,6 +188,8 @@ HidBytes PidDriver::next_output(std::int64_t now_ns) noexcept {
 // ended session.
 void PidDriver::apply_command(std::int64_t now_ns) noexcept {
   if (commands_.update()) command_ns_ = now_ns;
+  if (commands_.value().command != received_) changed_ns_ = now_ns;
+  received_ = commands_.value().command;
   const std::uint64_t releases = releases_.load(std::memory_order_acquire);
   if (releases != applied_releases_) scheduler_.release();
   applied_releases_ = releases;
@@ -195,6 +197,8 @@ void PidDriver::apply_command(std::int64_t now_ns) noexcept {
   const bool is_current = prepared_ && newest.session == state_.session && newest.releases == releases;
   driven_ = is_current && newest.command.enabled;
   StickCommand command = is_current ? newest.command : StickCommand{};
+  if (command.push_time > 0.0 && 1e-9 * static_cast<double>(now_ns - changed_ns_) >= command.push_time)
+    command.constant = {};
   for (std::size_t i = 0; i < 2; ++i) {  // also fades the device walls, because they use the same sensor
     command.constant[i] *= watch_.force_fraction(i);
     command.spring[i].coefficient *= watch_.force_fraction(i);

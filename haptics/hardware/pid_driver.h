@@ -7,6 +7,7 @@
 //   prepare    creates the effects with zero force; the actuators stay off (pid_setup.h)
 //   stream     sends one report per tick (report_scheduler.h). While enabled, turns the actuators on, and starts the
 //              effects again before they end. Thus the force ends soon if the program dies.
+//              A command with a push_time ends its own force, however late the next command is.
 //   release    turns the actuators off, stops all effects and sets the forces to zero, before anything else is sent
 //   finish     stops all effects, turns the actuators off, frees the blocks and resets the device
 //
@@ -150,6 +151,8 @@ class PidDriver final : public HidStream {
   StickState state_;
   std::uint64_t applied_releases_ = 0;
   std::int64_t command_ns_ = 0;  // when the last command was received
+  StickCommand received_;        // the last command
+  std::int64_t changed_ns_ = 0;  // when it was first received
   bool driven_ = false;          // the last command is valid and enables the motors
   std::int64_t unarrived_ns_ = 0;
   bool unarrived_ = false;      // an output has been in transit since unarrived_ns_

@@ -82,7 +82,7 @@ done
 ended_in_memory() {
   "$gearshift" train --offscreen ended --lesson up_through_the_gears --seconds 600 --size 64x36 --no-help --silent \
     >ended.txt 2>ended.err &
-  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # the folder appears just before the drive begins
+  until grep -q "lesson up_through_the_gears begins" ended.txt || ! kill -0 $!; do sleep 0.005; done
   kill $!
   wait $!
   [ $? -eq 1 ]

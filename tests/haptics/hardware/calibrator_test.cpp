@@ -217,6 +217,46 @@ TEST_CASE("forces that do not grow evenly are used up to where they do, and the 
   CHECK(spec_of(whole, 0.001).max_force == dvec2(20.0));
 }
 
+// A busy machine stops the calibration's thread for 25 ms during the first two pushes of full force. The port's thread,
+// which has a real-time priority, goes on. Full force for 25 ms would move this lever by 65 mm.
+TEST_CASE("when the calibration is late, a push of full force still ends in time") {
+  for (const StickFamily family : kStickFamilies) {
+    CAPTURE(name_of(family));
+    DeviceCalibration known = calibration_of(config_of(family));
+    known.select.constant_limit = known.shift.constant_limit = 0.0;
+    CalibrationBench bench(config_of(family), known);
+    int strong = 0, longest = 0;  // [ms] with full force
+    int stops = 0;
+    const auto go_on = [&] {
+      strong = glm::length(bench.stick.force()) > 19.0 ? strong + 1 : 0;
+      longest = std::max(longest, strong);
+    };
+    bench.every_tick = [&] {
+      go_on();
+      if (strong != 1 || ++stops > 2) return;
+      for (int i = 0; i < 25; ++i) {
+        bench.tick();
+        go_on();
+      }
+    };
+    CHECK(refusal([&] { bench.calibrator.measure_strength(); }) == "");
+    CHECK(longest > 5);
+    CHECK(longest < 20);  // there and back: twice 8 ms
+    CHECK(bench.calibrator.calibration().select.constant_limit == 1.0);
+  }
+}
+
+TEST_CASE("too few readings of a push are a refusal, not the program's end") {
+  DeviceCalibration known = calibration_of(config_of(StickFamily::sidewinder));
+  known.select.constant_limit = known.shift.constant_limit = 0.0;
+  CalibrationBench bench(config_of(StickFamily::sidewinder), known);
+  bench.every_tick = [&] {  // only once pushes of 20 % begin
+    for (int i = 0; bench.strongest > 3.9 && i < 40; ++i) bench.tick();
+  };
+  CHECK(refusal([&] { bench.calibrator.measure_strength(); }) ==
+        "select cannot be measured, because too few readings to identify the lever's motion");
+}
+
 TEST_CASE("cross-talk of each family of effects and the number of effects that act at once are measured") {
   EmulatedStickConfig config = config_of(StickFamily::openffboard);
   config.habits.cross_talk = {0.04, 0.06, 0.08};

@@ -24,7 +24,8 @@ namespace gearshift::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::int64_t kFrame = 1'000'000;  // [ns] period of the frames on a full-speed bus
+constexpr std::int64_t kFrame = 1'000'000;    // [ns] period of the frames on a full-speed bus
+constexpr std::int64_t kMaxLate = 3 * kFrame;  // [ns] later frames were missed
 
 std::string hex(std::span<const std::uint8_t> bytes) {
   std::string text;
@@ -150,7 +151,8 @@ struct MockUsb::State {
   std::string driver_text(Plugged& plugged) const;
 };
 
-// Simulates the frames of the host controller: in each frame, processes the transfers that are due.
+// Simulates the frames of the host controller: in each frame, processes the transfers that are due. A thread that was
+// stopped does not make up for the frames that it missed, because the program had no time to answer between them.
 void MockUsb::State::run() {
   prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
   timespec next{};
@@ -160,6 +162,8 @@ void MockUsb::State::run() {
     at += kFrame;
     next = {at / 1'000'000'000, at % 1'000'000'000};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
+    clock_gettime(CLOCK_MONOTONIC, &next);
+    if (const std::int64_t now = next.tv_sec * 1'000'000'000 + next.tv_nsec; now - at > kMaxLate) at = now;
     const std::lock_guard<std::mutex> lock(*mutex);
     for (const auto& each : all) {
       if (each->is_connected) each->node.advance(at);

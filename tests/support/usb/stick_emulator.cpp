@@ -8,6 +8,7 @@
 // the end.
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -145,6 +146,12 @@ class Emulation {
   int status_ = 0;
 };
 
+// Where it is permitted, all threads of the emulation have a real-time priority, because a device never waits for a CPU.
+void never_wait() {
+  const sched_param above_program{.sched_priority = 90};
+  (void)sched_setscheduler(0, SCHED_FIFO, &above_program);
+}
+
 Emulation::Emulation(const Options& options) : options_(options) {
   config_ = stick_named(options.family);
   // Without a tour (scripted gear changes) and without an orders file, no hand holds the lever.
@@ -244,9 +251,15 @@ void Emulation::start() {
   std::vector<char*> arguments;
   for (const std::string& each : options_.command) arguments.push_back(const_cast<char*>(each.c_str()));
   arguments.push_back(nullptr);
-  if (posix_spawnp(&child_, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0) {
-    throw std::runtime_error("cannot start " + options_.command[0]);
-  }
+  posix_spawnattr_t ordinary;  // the program's scheduling
+  const sched_param no_priority{};
+  posix_spawnattr_init(&ordinary);
+  posix_spawnattr_setflags(&ordinary, POSIX_SPAWN_SETSCHEDULER);
+  posix_spawnattr_setschedpolicy(&ordinary, SCHED_OTHER);
+  posix_spawnattr_setschedparam(&ordinary, &no_priority);
+  const int error = posix_spawnp(&child_, arguments[0], nullptr, &ordinary, arguments.data(), environ);
+  posix_spawnattr_destroy(&ordinary);
+  if (error != 0) throw std::runtime_error("cannot start " + options_.command[0]);
   start_ = Clock::now();
   std::signal(SIGTERM, request_end);
   std::signal(SIGINT, SIG_IGN);  // ignored, because Ctrl-C also sends SIGINT to the program itself
@@ -268,7 +281,7 @@ void Emulation::watch() {
   }
   const std::lock_guard<std::mutex> lock(usb_->mutex());
   // While the stick is unplugged, the bus does not advance the stick, so it is advanced here.
-  if (!is_plugged_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
+  if (!is_plugged_) gadget_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
   // The hand shifts only while the motors are on.
   if (touring_hand_) touring_hand_->work(is_plugged_ && stick_->actuators_on());
   if (events_done_ > 0 && glm::length(stick_->force()) > kFreeOfForce) events_[events_done_ - 1].last_force = now();
@@ -340,6 +353,7 @@ int run(int count, char** arguments) {
                  "pipe with one order per line: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
   cli.add_option("program", options.command, "program and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
+  never_wait();
   return Emulation(options).run();
 }
 

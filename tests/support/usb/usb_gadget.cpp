@@ -15,4 +15,11 @@ std::string StickGadget::string_descriptor(int index) const {
   return text;
 }
 
+void StickGadget::advance(std::int64_t now_ns) {
+  constexpr std::int64_t kMaxStep = 4'000'000;  // [ns]
+  if (last_ns_ != 0 && now_ns - last_ns_ > kMaxStep) stopped_ns_ += now_ns - last_ns_ - kMaxStep;
+  last_ns_ = now_ns;
+  stick_.advance(now_ns - stopped_ns_);
+}
+
 }  // namespace gearshift::test

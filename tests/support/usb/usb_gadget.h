@@ -28,7 +28,8 @@ class UsbGadget {
   virtual void unplug() = 0;
 };
 
-// Connects an emulated stick to the bus. The stick must outlive this object.
+// Connects an emulated stick to the bus. The stick must outlive this object. While the bus was stopped, no time passes for
+// the stick: a force that a program meant for 8 ms would otherwise push for as long as the machine was busy.
 class StickGadget final : public UsbGadget {
  public:
   explicit StickGadget(EmulatedStick& stick) : stick_(stick) {}
@@ -43,11 +44,12 @@ class StickGadget final : public UsbGadget {
   bool output(std::span<const std::uint8_t> report) override { return stick_.output(report); }
   std::optional<Bytes> input() override { return stick_.input(); }
   double control_delay() const override { return stick_.faults.slow; }
-  void advance(std::int64_t now_ns) override { stick_.advance(now_ns); }
+  void advance(std::int64_t now_ns) override;
   void unplug() override { stick_.unplug(); }
 
  private:
   EmulatedStick& stick_;
+  std::int64_t last_ns_ = 0, stopped_ns_ = 0;  // of the last call; [ns] for how long the bus was stopped
 };
 
 }  // namespace gearshift::test
