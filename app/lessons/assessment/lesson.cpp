@@ -334,13 +334,20 @@ Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car) {
   return driven;
 }
 
-Lesson read_lesson(const std::filesystem::path& file) {
-  Lesson lesson = parse_lesson(haptics::read_text_file(file), file.string());
-  const std::filesystem::path norms = file.parent_path() / "norms" / "simulated.toml";
+std::vector<Norm> norms_beside(const std::filesystem::path& lesson) {
+  const std::filesystem::path file = lesson.parent_path() / "norms" / "simulated.toml";
   std::error_code ignored;
-  if (!std::filesystem::exists(norms, ignored)) return lesson;
-  for (Norm& norm : read_norms(norms))
-    if (norm.lesson == lesson.key) lesson.norms.push_back(std::move(norm));
+  return std::filesystem::exists(file, ignored) ? read_norms(file) : std::vector<Norm>{};
+}
+
+Lesson read_lesson(const std::filesystem::path& file) {
+  return read_lesson(file, norms_beside(file));
+}
+
+Lesson read_lesson(const std::filesystem::path& file, std::span<const Norm> norms) {
+  Lesson lesson = parse_lesson(haptics::read_text_file(file), file.string());
+  for (const Norm& norm : norms)
+    if (norm.lesson == lesson.key) lesson.norms.push_back(norm);
   return lesson;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,9 +88,11 @@ struct Lesson {
   std::string file;                         // for messages
 };
 
-// Throws FileError with file, line, key, value and allowed range. Also reads the lesson's norms from norms/simulated.toml in the
-// same folder, if there is one.
-Lesson read_lesson(const std::filesystem::path& file);
+// These throw FileError with file, line, key, value and allowed range. The norms of all lessons are in one long file,
+// norms/simulated.toml in the folder of the lessons; none if it is missing. Whoever reads many lessons reads it once.
+std::vector<Norm> norms_beside(const std::filesystem::path& lesson);
+Lesson read_lesson(const std::filesystem::path& file);  // with its norms
+Lesson read_lesson(const std::filesystem::path& file, std::span<const Norm> norms);  // of all lessons
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
 
 // True if the lesson fails on this kind of error.

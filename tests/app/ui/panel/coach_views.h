@@ -3,7 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lessons/assessment/grade.h"
@@ -13,8 +16,12 @@
 
 namespace gearshift::test {
 
-inline lessons::Lesson shipped_lesson(std::string_view key) {
-  return lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
+inline const lessons::Lesson& shipped_lesson(std::string_view key) {  // each is read once
+  static std::map<std::string, lessons::Lesson, std::less<>> read;
+  const auto known = read.find(key);
+  if (known != read.end()) return known->second;
+  const std::string name(key);
+  return read.emplace(name, lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + name + ".toml")).first->second;
 }
 
 // A CoachView with a trial of its own. view() is valid while this object is neither moved nor changed.
