@@ -63,8 +63,8 @@ constexpr double kMaxCoupling = 0.6;                // [1] stronger cross-talk w
 constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};  // [1] magnitudes of constant forces that are compared
 constexpr std::array kLowerLevels{0.5, 0.4, 0.3};   // [1] tried if the force at 60 % is wrong
 constexpr double kEven = 0.15;                      // [1] largest difference of the force per magnitude
-constexpr double kSameGain = 0.04;          // [1] difference of two pushes over their sum, if a third is not needed
-constexpr double kDoublePushMotion = 0.10;  // [1] of a push and a push back, fraction of the axis's range
+constexpr double kSameGain = 0.04;           // [1] difference of two pushes over their sum, if a third is not needed
+constexpr double kDoublePushMotion = 0.10;   // [1] of a push and a push back, fraction of the axis's range
 constexpr std::size_t kDoublePushSteps = 3;  // there, back, and off; fewer were seen if the thread was late
 constexpr double kMinPushTime = 0.006, kMaxPushTime = 0.04;  // [s]
 constexpr std::int64_t kDoubleCoastTime = 200'000'000;       // [ns]

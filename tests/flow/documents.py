@@ -52,7 +52,11 @@ class Documents:
 
     def quotes(self, path, name, text):
         """A ```cpp block must be a part of the .cpp file that the link before it names."""
-        for before, quoted in re.findall(r"((?:(?!```).)*?)```cpp\n(.*?)```", text, re.S):
+        parts = text.split("```")
+        for before, block in zip(parts[::2], parts[1::2]):
+            language, _, quoted = block.partition("\n")
+            if language != "cpp":
+                continue
             files = re.findall(r"\]\(([^)\s]+\.cpp)\)", before)
             self.check(name, files and quoted in (path.parent / files[-1]).read_text(), "quotes other code than its file has")
 

@@ -91,7 +91,7 @@ struct Lesson {
 // These throw FileError with file, line, key, value and allowed range. The norms of all lessons are in one long file,
 // norms/simulated.toml in the folder of the lessons; none if it is missing. Whoever reads many lessons reads it once.
 std::vector<Norm> norms_beside(const std::filesystem::path& lesson);
-Lesson read_lesson(const std::filesystem::path& file);  // with its norms
+Lesson read_lesson(const std::filesystem::path& file);                               // with its norms
 Lesson read_lesson(const std::filesystem::path& file, std::span<const Norm> norms);  // of all lessons
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
 

@@ -326,7 +326,7 @@ TEST_CASE("a stick that drives otherwise than calibrated is switched off in a ra
   std::string table =
       "wrong | family | readings every ms | stopped within 20 s | by the watch | asked for its power | median s | "
       "worst s\n";
-  const unsigned seeds = is_full_campaign() ? 12 : 1, intervals = campaign_size(4, 4);
+  const unsigned seeds = is_full_campaign() ? 12 : 1, intervals = campaign_size(4, 2);
   for (const Wrong& wrong : wrongs()) {
     unsigned all = 0, all_stopped = 0, all_asked = 0;
     for (const StickFamily family : kStickFamilies) {

@@ -440,7 +440,7 @@ TEST_CASE("a lever that moves forward and back only, and a sequential gate: with
 TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, what is broken is named") {
   std::mt19937 chance(4);
   for (const Habit& habit : habits()) {
-    if (chance() % 12 >= campaign_size(12, 12)) continue;
+    if (chance() % 12 >= campaign_size(12, 4)) continue;
     EmulatedStickConfig config;
     habit.give(config);
     check_stick(config, habit.name, {habit});
@@ -451,7 +451,7 @@ TEST_CASE("random pairs of habits on any family") {
   constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy,
                                        StickFamily::arduino, StickFamily::sunffb};
   std::mt19937 chance(35);
-  for (unsigned pair = 0; pair < campaign_size(200, 15); ++pair) {
+  for (unsigned pair = 0; pair < campaign_size(200, 8); ++pair) {
     EmulatedStickConfig config;
     config.family = kFamilies[chance() % std::size(kFamilies)];
     const Habit &first = habits()[chance() % habits().size()], &second = habits()[chance() % habits().size()];

@@ -24,7 +24,7 @@ namespace gearshift::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::int64_t kFrame = 1'000'000;    // [ns] period of the frames on a full-speed bus
+constexpr std::int64_t kFrame = 1'000'000;     // [ns] period of the frames on a full-speed bus
 constexpr std::int64_t kMaxLate = 3 * kFrame;  // [ns] later frames were missed
 
 std::string hex(std::span<const std::uint8_t> bytes) {

@@ -53,15 +53,15 @@ std::vector<RelatedFigure> in_motion(ContactCase contact) {
 }
 
 // Impacts of a free lever at 0.1 to 1 m/s.
-std::vector<RelatedFigure> in_impact(const ContactCase& contact) {
-  constexpr int kPhases = 400;  // as in the family energy
-  const ImpactEnergy impact = run_impacts(contact, kPhases);
+std::vector<RelatedFigure> in_impact(const ContactCase& contact, bool quick) {
+  const ImpactEnergy impact = run_impacts(contact, quick ? 10 : 400);  // phases, as in the family energy
   return {{"worst impact's energy", 100.0 * impact.worst_fraction, "%"},
           {"maximum restitution", impact.restitution, ""},
           {"least rate-hardness at 0.3 m/s", 1e-3 * impact.hardness, "kN/m"}};
 }
 
-void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& prefix, const Campaign& campaign) {
+void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& prefix, const Campaign& campaign,
+         bool quick) {
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const HandOutcome& worst = worst_ripple(outcomes);
   double max_ripple = 0.0;
@@ -75,7 +75,7 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& pref
                                      {"over what fingers feel", worst.tremble / kFingerThreshold, "x"}};
   if (!campaign.contact.haptics.contact.allow_unstable) {
     for (RelatedFigure& figure : in_motion(campaign.contact)) related.push_back(std::move(figure));
-    for (RelatedFigure& figure : in_impact(campaign.contact)) related.push_back(std::move(figure));
+    for (RelatedFigure& figure : in_impact(campaign.contact, quick)) related.push_back(std::move(figure));
   }
   const std::string what = prefix + timing_label(at) + ": final peak-to-peak motion";
   const std::size_t first = rows.size();
@@ -130,7 +130,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
   double done = 0.0;
   for (const Setting& at : settings) {
     if (options.progress) options.progress("contact", done++ / kCampaigns);
-    add(rows, at, "", pushes(at, runs));
+    add(rows, at, "", pushes(at, runs), options.quick);
     if (options.progress) options.progress("contact", done++ / kCampaigns);
     rows.push_back(random_hand_row(at, options.quick ? 20 : 200));
   }
@@ -138,7 +138,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
   for (const Setting& at : {Setting{1000, 1, .12, .3, false, 20e3}, Setting{2000, 2, .12, .3, false, 20e3},
                             Setting{2000, 3, .12, .3, false, 20e3}, Setting{4000, 8, .12, .3, false, 20e3}}) {
     if (options.progress) options.progress("contact", done++ / kCampaigns);
-    add(rows, at, "20 kN/m wanted, ", pushes(at, runs));
+    add(rows, at, "20 kN/m wanted, ", pushes(at, runs), options.quick);
   }
   // A stick of 3 and 5 ms whose firmware renders part of the wall; {1000, 3} above is the former without springs.
   for (const auto& [delay, device_stiffness] :
@@ -148,7 +148,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
     Campaign campaign = pushes(at, runs);
     campaign.contact.lever.device_wall_stiffness = device_stiffness;
     const std::string prefix = "device walls of " + std::to_string(static_cast<int>(device_stiffness)) + " N/m, ";
-    add(rows, at, device_stiffness == 0.0 ? "" : prefix, campaign);
+    add(rows, at, device_stiffness == 0.0 ? "" : prefix, campaign, options.quick);
   }
   // Devices that are unstable with a wall of 5000 N/m. The stability check is off, so only the reversal limiter acts. It
   // ignores a swing that dies away by itself, so these goals are wider. At 100 Hz an arm of 0.8 kg still swings by 0.41 mm
@@ -159,7 +159,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
     campaign.contact.haptics.contact.allow_unstable = true;
     campaign.contact.haptics.contact.hold = haptics::ContactHold::half_sample;
     campaign.contact.duration = 4.0;
-    add(rows, at, "unchecked 5000 N/m wall, reversal limiter only, ", campaign);
+    add(rows, at, "unchecked 5000 N/m wall, reversal limiter only, ", campaign, options.quick);
   }
   return rows;
 }

@@ -35,15 +35,26 @@ struct OctaveBand {
 };
 constexpr std::array<OctaveBand, 4> kOctaves = {{{354.0, 707.0}, {707.0, 1414.0}, {1414.0, 2828.0}, {2828.0, 5657.0}}};
 
-// [dB] The signal-to-noise ratio in the best octave band, at the ear with the lower ratio.
-double best_octave(std::span<const float> signal, std::span<const float> noise) {
-  double worse_ear = 1e9;
+// Power in each octave band, at each ear.
+using OctavePowers = std::array<std::array<double, std::size(kOctaves)>, 2>;
+
+OctavePowers octave_powers(std::span<const float> signal) {
+  OctavePowers powers{};
   for (const Ear ear : {Ear::left, Ear::right}) {
-    const Spectrum s = spectrum(channel(signal, ear)), n = spectrum(channel(noise, ear));
+    const Spectrum found = spectrum(channel(signal, ear));
+    for (std::size_t i = 0; i < std::size(kOctaves); ++i)
+      powers[ear == Ear::left ? 0 : 1][i] = band_power(found, kOctaves[i].low, kOctaves[i].high);
+  }
+  return powers;
+}
+
+// [dB] The signal-to-noise ratio in the best octave band, at the ear with the lower ratio.
+double best_octave(const OctavePowers& signal, const OctavePowers& noise) {
+  double worse_ear = 1e9;
+  for (std::size_t ear = 0; ear < 2; ++ear) {
     double best = -1e9;
-    for (const auto& [low, high] : kOctaves) {
-      best = std::max(best, 10.0 * std::log10(band_power(s, low, high) / band_power(n, low, high)));
-    }
+    for (std::size_t i = 0; i < std::size(kOctaves); ++i)
+      best = std::max(best, 10.0 * std::log10(signal[ear][i] / noise[ear][i]));
     worse_ear = std::min(worse_ear, best);
   }
   return worse_ear;
@@ -330,14 +341,14 @@ TEST_CASE("each warning exceeds the engine at full load by 20 dB in an octave ba
     cabin.lever.flags = flag;
     cabin.car.over_revved = over_revved;
     cabin.run(0.5);
-    return cabin.run(2.0);
+    return octave_powers(cabin.run(2.0));
   };
-  const std::vector<float> over_push = warning(kFlagOverPush), saturation = warning(kFlagSaturated);
-  const std::vector<float> over_rev = warning(0, true);
+  const OctavePowers over_push = warning(kFlagOverPush), saturation = warning(kFlagSaturated);
+  const OctavePowers over_rev = warning(0, true);
   Cabin cabin;
   double min_push = 1e9, min_saturation = 1e9, min_over_rev = 1e9;
   for (double speed = 800.0; speed <= 7000.0; speed *= 1.2) {
-    const std::vector<float> engine = engine_sound(cabin, speed, 1.0, 2.0);
+    const OctavePowers engine = octave_powers(engine_sound(cabin, speed, 1.0, 2.0));
     min_push = std::min(min_push, best_octave(over_push, engine));
     min_saturation = std::min(min_saturation, best_octave(saturation, engine));
     min_over_rev = std::min(min_over_rev, best_octave(over_rev, engine));
