@@ -252,7 +252,8 @@ glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) con
   const PlanePose pose = plane_pose(tangent(x_), -tangent(y_));
   const glm::dvec2 there = plane_position(pose, config_.yoke.radius);
   const glm::dvec2 back = glm::clamp(there, walls.low, walls.high) - there;
-  return arc_force(pose, walls.stiffness_fraction * config_.device_wall_stiffness * back);
+  const glm::dvec2 spring = walls.stiffness_fraction * config_.device_wall_stiffness * back;
+  return arc_force(pose, glm::clamp(spring, -config_.actuator.peak_force, config_.actuator.peak_force));
 }
 
 // Force of the hand on the lever at x = 0. [N]

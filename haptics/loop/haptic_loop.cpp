@@ -244,6 +244,7 @@ LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
 GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   GuardInput in;
   in.force = wanted_force();
+  in.beside = device_wall_force(walls_);
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
   in.fresh = motion_.fresh;
@@ -283,7 +284,8 @@ void HapticLoop::send_device_walls(double ramp) noexcept {
 dvec2 HapticLoop::device_wall_force(const LeverWalls& walls) const noexcept {
   if (walls.stiffness_fraction == 0.0) return {0.0, 0.0};
   const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
-  return walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
+  const dvec2 wanted = walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
+  return glm::clamp(wanted, -spec_.max_force, spec_.max_force);
 }
 
 // True if the wanted force exceeds the device's limit: the loop's part by itself, or together with the device walls.

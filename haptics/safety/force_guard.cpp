@@ -74,7 +74,11 @@ GuardOutput ForceGuard::compute_output(const GuardInput& in, dvec2 travel) noexc
     return {};
   }
   if (state_ == GuardState::damped) return {glm::clamp(damped_force(in), -max_force_, max_force_), false};
-  const dvec2 wanted = apply_passivity_control(in, travel);
+  // The sum with the device's springs is kept within the maximum, too. Otherwise the device would limit it on each joint,
+  // which turns the force: round a closed path such a force does work, and a heavy hand keeps swinging.
+  const dvec2 lowest = glm::clamp(-max_force_ - in.beside, -max_force_, dvec2(0.0));
+  const dvec2 highest = glm::clamp(max_force_ - in.beside, dvec2(0.0), max_force_);
+  const dvec2 wanted = glm::clamp(apply_passivity_control(in, travel), lowest, highest);
   const dvec2 slewed = glm::clamp(wanted, last_force_ - config_.slew, last_force_ + config_.slew);
   last_force_ = glm::clamp(apply_energy_bounding(slewed, travel), -max_force_, max_force_);
   const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;

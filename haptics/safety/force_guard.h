@@ -74,6 +74,7 @@ static_assert(DescribesAll<GuardConfig>);
 
 struct GuardInput {
   glm::dvec2 force{0.0};     // [N] wanted
+  glm::dvec2 beside{0.0};    // [N] of the device's own springs; the motors make the sum
   glm::dvec2 position{0.0};  // [m] newest accepted
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // this cycle's reading is fresh

@@ -91,6 +91,23 @@ TEST_CASE("saturation is reported for each force beyond the device") {
   CHECK(guard.guard(wanting({0.0, 31.8})).saturated);
 }
 
+TEST_CASE("the motors and the device's springs together stay within the device, and the motors never push against them") {
+  ForceGuard guard = running_guard();
+  const auto settled = [&](double force, double spring) {
+    GuardInput in = wanting({0.0, force});
+    in.beside = {0.0, spring};
+    for (int i = 0; i < 10; ++i) guard.guard(in);
+    return guard.guard(in).force.y;
+  };
+  CHECK(settled(31.7, 0.0) == 31.7);
+  CHECK(settled(31.7, 5.0) == doctest::Approx(26.7));
+  CHECK(settled(40.0, 31.7) == 0.0);
+  CHECK(settled(40.0, 50.0) == 0.0);   // not -18.3
+  CHECK(settled(31.7, -5.0) == 31.7);  // the motors against a spring that pushes the other way
+  CHECK(settled(20.0, 5.0) == 20.0);
+  CHECK(settled(-40.0, -5.0) == doctest::Approx(-26.7));
+}
+
 TEST_CASE("frozen reading: damped after 20 ms, force zero within 20 ms more") {
   ForceGuard guard = running_guard({10.0, -8.0});
   GuardInput frozen = wanting({10.0, -8.0});
