@@ -34,8 +34,8 @@ constexpr int place_of(std::size_t value) noexcept {
 }  // namespace
 
 const char* file_key(SignStyle style) noexcept {
-  static constexpr const char* kNames[] = {"magnitude", "direction"};
-  return kNames[static_cast<int>(style)];
+  static constexpr const char* kStyleKeys[] = {"magnitude", "direction"};
+  return kStyleKeys[static_cast<int>(style)];
 }
 
 PidEffect kind_of(StickEffect effect) noexcept {
