@@ -58,5 +58,6 @@ finish() { # prints the summary and returns the script's exit code
     [ -z "${GEARSHIFT_SANITIZED:-}" ] || [ $passed = 0 ] || { echo "judged by its reports alone: none"; return 77; }
     [ "$(host_took)" -lt 15 ] || { echo "not judged: the host took $(host_took) % of the cores meanwhile"; return 77; }
   fi
-  [ $failed -eq 0 ]
+  [ $((passed + failed)) -gt 0 ] || echo "FAILED: nothing was checked"
+  [ $failed -eq 0 ] && [ $passed -gt 0 ]
 }
