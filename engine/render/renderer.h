@@ -3,8 +3,8 @@
 //
 // Each eye's picture is a layer of colour(), which can be blitted to a window, read back as a PNG, or copied to a
 // headset. Both eyes are drawn in one pass if the device lets a vertex shader select the layer, otherwise eye by eye.
-// Multisampled layers are resolved by vkCmdResolveImage, because on one driver a resolve attachment for layer 1 stays
-// black.
+// Multisampled layers are resolved by vkCmdResolveImage, because lavapipe of Mesa 22.3 leaves a resolve attachment for
+// layer 1 black.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,9 @@
 // Features for headsets: eyes that move after recording, and depth.
 #include <cstring>
 
+#include "engine/gpu/commands.h"
+#include "engine/render/targets.h"
+#include "tests/engine/gpu/glsl.h"
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -62,6 +65,38 @@ std::vector<float> read_depth(Gpu& gpu, GpuImage& depth, std::uint32_t eye) {
   return values;
 }
 
+// Whether the driver resolves multisampled depth into layer 1 of an image if a pass draws into that layer only. Lavapipe
+// of Mesa 22.3 and 25.0 does not.
+bool resolves_depth_of_second_layer(Gpu& gpu) {
+  constexpr std::uint32_t kSide = 4;
+  ImageDesc desc{.width = kSide, .height = kSide, .layers = 2, .format = kDepthFormat};
+  desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  EyeImage resolved(gpu, desc);
+  desc.samples = VK_SAMPLE_COUNT_4_BIT;
+  EyeImage samples(gpu, desc);
+  const auto everywhere_half_deep = compile_glsl("vert", R"(#version 450
+void main() { gl_Position = vec4(gl_VertexIndex % 2 * 4 - 1, gl_VertexIndex / 2 * 4 - 1, 0.5, 1.0); })");
+  const PipelineLayout layout = make_pipeline_layout(gpu, {}, 0);
+  const Pipeline pipeline = make_pipeline(gpu, {.vertex = everywhere_half_deep,
+                                                .layout = layout.get(),
+                                                .depth = kDepthFormat,
+                                                .samples = desc.samples,
+                                                .depth_use = Depth::write});
+  run_once(gpu, [&](VkCommandBuffer commands) {
+    transition(commands, samples.image, ImageUse::depth_target);
+    transition(commands, resolved.image, ImageUse::depth_resolved);
+    const Attachment depth{.view = samples.one[1].get(), .resolved = resolved.one[1].get()};
+    begin_rendering(commands, samples.image.extent(), 1, nullptr, &depth);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdEndRendering(commands);
+    transition(commands, resolved.image, ImageUse::copy_from);
+  });
+  return read_depth(gpu, resolved.image, 1).front() == 0.5f;
+}
+
 }  // namespace
 
 TEST_CASE("a frame recorded for one head pose and given a later one is drawn from the later one") {
@@ -97,15 +132,20 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
   const int grey = add_material(model, paint(vec3(0.5f)));
   add_rectangle(model, "Wall", {4.0f, 4.0f}, grey, {0.0f, 0.0f, -2.5f});
   add_rectangle(model, "Sign", {0.2f, 0.2f}, grey, {0.0f, 0.0f, -0.8f});
+  double back = 0.0;  // [m] differs in each picture, so that memory of an earlier one cannot pass for a resolved depth
   for (const int samples : {1, 4}) {
     for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
-      if (samples == 4 && passes == EyePasses::one_by_one) continue;  // lavapipe: see engine/render/README.md
+      back += 0.02;
+      if (samples == 4 && passes == EyePasses::one_by_one && !resolves_depth_of_second_layer(fixture.gpu())) {
+        MESSAGE("not tested: four samples, eye by eye, because this driver leaves depth's layer 1 unresolved");
+        continue;
+      }
       CAPTURE(samples);
       CAPTURE(static_cast<int>(passes));
       const RenderConfig config = for_headset(samples, passes);
       Renderer renderer(fixture.gpu(), config);
       renderer.set_model(model);
-      const std::array<View, 2> views = eyes_of(config, look_at({0, 0, 0}, {0, 0, -1}));
+      const std::array<View, 2> views = eyes_of(config, look_at({0, 0, back}, {0, 0, -1}));
       renderer.draw(scene_at_rest(model), views);
       for (std::uint32_t eye = 0; eye < 2; ++eye) {
         const std::vector<float> depth = read_depth(fixture.gpu(), renderer.depth(), eye);
@@ -121,7 +161,7 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
             const bool outside = x + 2 < left.x || x > right.x + 1 || y + 2 < left.y || y > right.y + 1;
             if (!inside && !outside) continue;
             sign += inside;
-            worst = std::max(worst, std::abs(measured * (inside ? 0.8 : 2.5) / kNear - 1.0));
+            worst = std::max(worst, std::abs(measured * (back + (inside ? 0.8 : 2.5)) / kNear - 1.0));
           }
         }
         CAPTURE(eye);
