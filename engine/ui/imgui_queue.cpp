@@ -6,7 +6,7 @@
 
 namespace gearshift::engine {
 
-#if IMGUI_VERSION_NUM >= 18900
+#if IMGUI_VERSION_NUM >= 18700
 
 ImGuiQueue::ImGuiQueue() = default;
 
@@ -27,7 +27,11 @@ void ImGuiQueue::add_key(ImGuiKey key, bool down) {
 }
 
 void ImGuiQueue::add_modifier(UiModifier modifier, bool down) {
+#if IMGUI_VERSION_NUM >= 18900
   constexpr ImGuiKey kKeys[] = {ImGuiMod_Shift, ImGuiMod_Ctrl, ImGuiMod_Alt};
+#else
+  constexpr ImGuiKey kKeys[] = {ImGuiKey_ModShift, ImGuiKey_ModCtrl, ImGuiKey_ModAlt};
+#endif
   add_key(kKeys[static_cast<int>(modifier)], down);
 }
 
@@ -36,7 +40,9 @@ void ImGuiQueue::add_letter(char32_t letter) {
 }
 
 void ImGuiQueue::lose_focus() {
+#if IMGUI_VERSION_NUM >= 18980
   ImGui::GetIO().ClearEventsQueue();
+#endif
   ImGui::GetIO().ClearInputKeys();
 }
 

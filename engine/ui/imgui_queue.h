@@ -12,8 +12,7 @@ namespace gearshift::engine {
 
 enum class UiModifier : int { shift, control, alt };
 
-// ImGuiIO has had a queue since 1.87, and the names of modifiers that we use since 1.89. For 1.86 the queue is here. It
-// then spreads events by the rules of 1.90.
+// ImGuiIO has had a queue since 1.87. For 1.86 the queue is here. It then spreads events by the rules of 1.90.
 class ImGuiQueue {
  public:
   ImGuiQueue();                  // for the current context
@@ -23,10 +22,10 @@ class ImGuiQueue {
   void add_key(ImGuiKey key, bool down);
   void add_modifier(UiModifier modifier, bool down);
   void add_letter(char32_t letter);
-  void lose_focus();   // drops waiting events, and releases keys and buttons
+  void lose_focus();   // drops waiting events (not in 1.87 to 1.89.7), and releases keys and buttons
   void start_frame();  // call before NewFrame
 
-#if IMGUI_VERSION_NUM < 18900
+#if IMGUI_VERSION_NUM < 18700
  private:
   enum class Kind { position, button, scroll, key, modifier, letter };
   struct Item {

@@ -10,10 +10,10 @@
 
 namespace gearshift::engine {
 
-// Id of the font's texture in draw commands.
+// Id of the font's texture in draw commands. The type of ids is a pointer or, since 1.91.4, a number.
 inline ImTextureID font_texture() {
   static char font_marker;  // the address of this variable is the id
-  return &font_marker;
+  return reinterpret_cast<ImTextureID>(&font_marker);
 }
 
 // A new context, which is then the current one.

@@ -105,8 +105,28 @@ ImFont* ui_font(UiFont font) {
   return ImGui::GetIO().Fonts->Fonts[static_cast<int>(font)];
 }
 
+float ui_font_size(const ImFont* font) {
+#if IMGUI_VERSION_NUM >= 19200
+  return font->LegacySize;
+#else
+  return font->FontSize;
+#endif
+}
+
+float ui_font_size(UiFont font) {
+  return ui_font_size(ui_font(font));
+}
+
 float ui_em() {
-  return ui_font(UiFont::body)->FontSize;
+  return ui_font_size(UiFont::body);
+}
+
+WithFont::WithFont(UiFont font) {
+#if IMGUI_VERSION_NUM >= 19200
+  ImGui::PushFont(ui_font(font), ui_font_size(font));
+#else
+  ImGui::PushFont(ui_font(font));
+#endif
 }
 
 ImU32 with_alpha(ImU32 colour, float alpha) {

@@ -8,13 +8,24 @@ namespace gearshift::engine {
 // The fonts of the user interface, in their order in the font atlas.
 enum class UiFont : int { body, small, title, prompt, digits };
 
-ImFont* ui_font(UiFont font);  // a font of the current context
-float ui_em();                 // [px] size of the body font: the unit for all other sizes
+ImFont* ui_font(UiFont font);            // a font of the current context
+float ui_font_size(const ImFont* font);  // [px] the size at which it was loaded
+float ui_font_size(UiFont font);
+#if IMGUI_VERSION_NUM >= 19200
+inline ImFontBaked& ui_glyphs(ImFont* font) {
+  return *font->GetFontBaked(ui_font_size(font));
+}
+#else
+inline const ImFont& ui_glyphs(ImFont* font) {
+  return *font;
+}
+#endif
+float ui_em();  // [px] size of the body font: the unit for all other sizes
 
 // Sets a font for the enclosing block.
 class WithFont {
  public:
-  explicit WithFont(UiFont font) { ImGui::PushFont(ui_font(font)); }
+  explicit WithFont(UiFont font);
   ~WithFont() { ImGui::PopFont(); }
   WithFont(const WithFont&) = delete;
   WithFont& operator=(const WithFont&) = delete;

@@ -22,7 +22,7 @@ struct Zone {  // bite zone in fractions of the pedal travel [1]; not drawn if e
 
 void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Zone zone = {}) {
   const float em = engine::ui_em(), text = width_of(name, engine::UiFont::small), gap = 0.35f * em;
-  const float height = engine::ui_font(engine::UiFont::small)->FontSize;
+  const float height = engine::ui_font_size(engine::UiFont::small);
   if (!first) same_line_if_fits(text + gap + kBar * em);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy({text + gap + kBar * em, height});

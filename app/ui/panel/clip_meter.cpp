@@ -32,7 +32,7 @@ void ClipMeter::push(const haptics::HapticSnapshot& snapshot) {
 }
 
 float ClipMeter::height() {
-  return engine::ui_font(engine::UiFont::small)->FontSize + bar_height() + 2.0f * ImGui::GetStyle().ItemSpacing.y;
+  return engine::ui_font_size(engine::UiFont::small) + bar_height() + 2.0f * ImGui::GetStyle().ItemSpacing.y;
 }
 
 // Draws a bar that spans 1.5 times the device's limit: delivered force filled, rendered force as a thick line, peak of

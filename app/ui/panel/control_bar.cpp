@@ -45,15 +45,15 @@ void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colo
            double zone_to = 0.0) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = engine::ui_font(engine::UiFont::small);
-  const float foot = low.y + size.y - font->FontSize;
+  const float foot = low.y + size.y - engine::ui_font_size(font);
   const float top = foot - (foot - low.y) * static_cast<float>(std::clamp(pressed, 0.0, 1.0));
   list.AddRectFilled(low, {low.x + size.x, foot}, ink::kWell, 2.0f);
   list.AddRectFilled({low.x, top}, {low.x + size.x, foot}, colour, 2.0f);
   const auto height_of = [&](double at) { return foot - (foot - low.y) * static_cast<float>(at); };
   if (zone_to > zone_from)
     list.AddRectFilled({low.x, height_of(zone_to)}, {low.x + size.x, height_of(zone_from)}, ink::kBiteZone);
-  const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, name).x;
-  list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
+  const float width = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, name).x;
+  list.AddText(font, engine::ui_font_size(font), {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
 
 // Draws an arrow to the right of the gear: up if the next higher gear would save fuel, down if the engine labours.
@@ -75,9 +75,9 @@ void draw_car(const BarCursor& parts, const PanelInput& input) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = parts.low();
   const char* gear = haptics::gear_name(input.now.gear);
-  const float width = digits->CalcTextSizeA(digits->FontSize, 1e9f, 0.0f, gear).x;
-  list.AddText(digits, digits->FontSize,
-               {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - digits->FontSize)},
+  const float width = digits->CalcTextSizeA(engine::ui_font_size(digits), 1e9f, 0.0f, gear).x;
+  list.AddText(digits, engine::ui_font_size(digits),
+               {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - engine::ui_font_size(digits))},
                car.grinding ? ink::kBad : ink::kText, gear);
   draw_shift_arrow({low.x + gear_width + 0.5f * em, low.y + 0.5f * parts.height()}, car.shift_advice);
   const float line = ImGui::GetTextLineHeightWithSpacing(), at = low.x + gear_width + 1.3f * em;
@@ -99,11 +99,11 @@ void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const float em = engine::ui_em();
-  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * font->FontSize);
+  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * engine::ui_font_size(font));
   if (on) list.AddCircleFilled(middle, 0.55f * em, engine::with_alpha(colour, 0.3f));
   list.AddCircleFilled(middle, 0.32f * em, on ? colour : ink::kRaised);
-  list.AddText(font, font->FontSize, {at.x + 1.2f * em, at.y}, on ? colour : engine::with_alpha(ink::kSoft, 0.75f),
-               text);
+  list.AddText(font, engine::ui_font_size(font), {at.x + 1.2f * em, at.y},
+               on ? colour : engine::with_alpha(ink::kSoft, 0.75f), text);
 }
 
 struct Lamp {
@@ -154,7 +154,7 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
        {"Ignition", car.ignition, ink::kGood, "Lit while the ignition is on."},
        slope_lamp(car)}};
   const float em = engine::ui_em(), line = parts.height() / 3.0f;
-  const float above = 0.5f * (line - engine::ui_font(engine::UiFont::small)->FontSize);
+  const float above = 0.5f * (line - engine::ui_font_size(engine::UiFont::small));
   float x = parts.low().x;
   for (int column = 0; column < columns; ++column) {
     const float width = (column == 0 ? first_lamp_width(input) : kLamps) * em;
@@ -238,11 +238,10 @@ void draw_state(const BarCursor& parts, float width, const haptics::HapticSnapsh
   list.AddRect(low, high, engine::with_alpha(colour, 0.7f), 4.0f);
   const auto centred = [&](engine::UiFont which, const char* text, float y, ImU32 shade) {
     ImFont* font = engine::ui_font(which);
-    const float text_width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x;
-    list.AddText(font, font->FontSize, {low.x + 0.5f * (width - text_width), y}, shade, text);
+    const float text_width = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, text).x;
+    list.AddText(font, engine::ui_font_size(font), {low.x + 0.5f * (width - text_width), y}, shade, text);
   };
-  const float title = engine::ui_font(engine::UiFont::title)->FontSize,
-              small = engine::ui_font(engine::UiFont::small)->FontSize;
+  const float title = engine::ui_font_size(engine::UiFont::title), small = engine::ui_font_size(engine::UiFont::small);
   const float top = low.y + 0.5f * (parts.height() - title - (has_fault ? small : 0.0f));
   centred(engine::UiFont::title, state_label(now.guard), top, colour);
   if (has_fault) centred(engine::UiFont::small, haptics::to_string(now.fault), top + title, ink::kText);

@@ -30,7 +30,7 @@ PlotRange reach_of(const haptics::Gate& gate, PlotAxis axis) {
 }
 
 float header_height() {
-  return engine::ui_font(engine::UiFont::small)->FontSize + ImGui::GetStyle().ItemSpacing.y;
+  return engine::ui_font_size(engine::UiFont::small) + ImGui::GetStyle().ItemSpacing.y;
 }
 
 void header(const char* text) {

@@ -104,9 +104,9 @@ void draw_lockouts(const Canvas& c, const haptics::Gate& gate) {
 }
 
 void centred_text(const Canvas& c, ImFont* font, ImVec2 at, ImU32 colour, const char* text) {
-  const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text);
-  c.list.AddText(font, font->FontSize, {std::round(at.x - 0.5f * size.x), std::round(at.y - 0.5f * size.y)}, colour,
-                 text);
+  const ImVec2 size = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, text);
+  c.list.AddText(font, engine::ui_font_size(font), {std::round(at.x - 0.5f * size.x), std::round(at.y - 0.5f * size.y)},
+                 colour, text);
 }
 
 void draw_gears(const Canvas& c, const haptics::Gate& gate, int engaged) {
@@ -183,12 +183,12 @@ void draw_lever(const Canvas& c, const haptics::HapticSnapshot& now, double px_p
 // Draws the scales for lengths and force arrows below the gate.
 void draw_scales(const Canvas& c, ImVec2 low, ImVec2 size, double px_per_n) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
-  const float y = low.y + size.y - 0.5f * font->FontSize - 0.2f * c.em;
+  const float y = low.y + size.y - 0.5f * engine::ui_font_size(font) - 0.2f * c.em;
   const float length = c.frame.length(kScaleLength);
   float x = low.x + 0.5f * c.em;
   const auto text = [&](const char* words) {
-    c.list.AddText(font, font->FontSize, {x, y - 0.5f * font->FontSize}, ink::kSoft, words);
-    x += font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, words).x + c.em;
+    c.list.AddText(font, engine::ui_font_size(font), {x, y - 0.5f * engine::ui_font_size(font)}, ink::kSoft, words);
+    x += font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, words).x + c.em;
   };
   c.list.AddLine({x, y}, {x + length, y}, ink::kSoft, 0.1f * c.em);
   for (const float end : {x, x + length}) c.list.AddLine({end, y - 0.25f * c.em}, {end, y + 0.25f * c.em}, ink::kSoft);
@@ -207,7 +207,7 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::Hapti
   const haptics::GateDescription description = haptics::describe_gate(gate);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
-  const float em = engine::ui_em(), foot = engine::ui_font(engine::UiFont::small)->FontSize + 0.3f * em;
+  const float em = engine::ui_em(), foot = engine::ui_font_size(engine::UiFont::small) + 0.3f * em;
   const Extent box = extent_of(gate);
   const Canvas c{*ImGui::GetWindowDrawList(), fit(box, low, {size.x, size.y - foot}), em};
   const double px_per_n =

@@ -15,13 +15,13 @@ float cap_width(const std::string& key) {
 
 void draw_cap(const std::string& key) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
-  const float em = engine::ui_em(), width = cap_width(key), height = font->FontSize + 0.15f * em;
+  const float em = engine::ui_em(), width = cap_width(key), height = engine::ui_font_size(font) + 0.15f * em;
   const ImVec2 low = ImGui::GetCursorScreenPos(), high(low.x + width, low.y + height);
   ImGui::Dummy({width, height});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, high, ink::kRaised, 0.22f * em);
   list.AddRect(low, high, ink::kSoft, 0.22f * em);
-  list.AddText(font, font->FontSize, {low.x + 0.35f * em, low.y}, ink::kText, key.c_str());
+  list.AddText(font, engine::ui_font_size(font), {low.x + 0.35f * em, low.y}, ink::kText, key.c_str());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "app/ui/panel/lesson_end.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
+#include "app/ui/panel/panel_keys.h"
 #include "app/ui/panel/text_lines.h"
 
 namespace gearshift::ui {
@@ -198,7 +199,7 @@ void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const 
   // No scroll bar while a lesson is driven, or before the height of the controls is known. Otherwise the bar would
   // appear for single frames and change the line breaks.
   const int bar = phase == lessons::LessonPhase::driving || !is_known ? ImGuiWindowFlags_NoScrollbar : 0;
-  ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
+  begin_child("texts", {0.0f, height}, bar);
   const float visible_height = body();
   ImGui::EndChild();
   const float begin = ImGui::GetCursorPosY();
@@ -288,7 +289,7 @@ float LessonCard::draw_prompts(FrameContext& now) {
 
 // Draws the newest sentence large for kFreshTime, then small like the older ones.
 void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& visible_height) {
-  const float line = engine::ui_font(engine::UiFont::title)->FontSize + ImGui::GetStyle().ItemSpacing.y;
+  const float line = engine::ui_font_size(engine::UiFont::title) + ImGui::GetStyle().ItemSpacing.y;
   const float begin = ImGui::GetCursorPosY();
   visible_height = begin + line;  // reserves one line
   if (feedback.empty()) return;

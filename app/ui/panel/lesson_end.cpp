@@ -9,6 +9,7 @@
 #include "app/lessons/assessment/grade.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
+#include "app/ui/panel/panel_keys.h"
 #include "app/ui/panel/text_lines.h"
 
 namespace gearshift::ui {
@@ -31,7 +32,7 @@ void draw_grade(const lessons::LessonResult& result) {
   if (lessons::is_graded(result)) {
     put(format_verdict(result), verdict_colour(result), engine::UiFont::digits);
     ImGui::SameLine(0.0f, 0.3f * em);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + engine::ui_font(engine::UiFont::digits)->FontSize - 1.5f * em);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + engine::ui_font_size(engine::UiFont::digits) - 1.5f * em);
     put("of 10", ink::kSoft, engine::UiFont::small);
   } else {
     ImGui::Dummy({0.0f, 0.3f * em});
@@ -148,14 +149,14 @@ float draw_lesson_end(const lessons::CoachView& coach) {
     const float judged = draw_judgement(coach);
     draw_driving_errors(*coach.result);
     draw_figures(coach);
-    const float line = engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float line = engine::ui_font_size(engine::UiFont::small) + 2.0f * ImGui::GetStyle().CellPadding.y;
     return std::min(ImGui::GetCursorPosY(), judged + kVisibleErrors * line);
   }
-  ImGui::BeginChild("judgement", {kLeftFraction * all, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+  begin_child("judgement", {kLeftFraction * all, 0.0f});
   const float judged = draw_judgement(coach);
   ImGui::EndChild();
   ImGui::SameLine();
-  ImGui::BeginChild("faults", {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+  begin_child("faults", {0.0f, 0.0f});
   draw_driving_errors(*coach.result);
   draw_figures(coach);
   ImGui::EndChild();

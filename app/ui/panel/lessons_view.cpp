@@ -32,12 +32,12 @@ std::string known_name(const lessons::CoachView& coach, const std::string& name)
 
 // False if the current font lacks a character of the name.
 bool has_all_glyphs(const std::string& name) {
-  const ImFont* font = ImGui::GetFont();
+  auto& glyphs = engine::ui_glyphs(ImGui::GetFont());
   const char *at = name.data(), *end = at + name.size();
   while (at < end) {
     unsigned code = 0;
     at += std::max(1, ImTextCharFromUtf8(&code, at, end));
-    if (code > IM_UNICODE_CODEPOINT_MAX || font->FindGlyphNoFallback(static_cast<ImWchar>(code)) == nullptr)
+    if (code > IM_UNICODE_CODEPOINT_MAX || glyphs.FindGlyphNoFallback(static_cast<ImWchar>(code)) == nullptr)
       return false;
   }
   return true;

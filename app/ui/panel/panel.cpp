@@ -256,7 +256,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelCommands& out) {
     const bool open = item(which.label);
     controls.mark(which.name);
     if (!open) return;
-    ImGui::BeginChild(which.name, {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+    begin_child(which.name, {0.0f, 0.0f});
     draw_it();
     ImGui::EndChild();
     ImGui::EndTabItem();

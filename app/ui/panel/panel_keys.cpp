@@ -1,17 +1,33 @@
 #include "app/ui/panel/panel_keys.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 namespace gearshift::ui {
 namespace {
+
+// Whether the navigation highlight is visible. In Dear ImGui 1.91.4 the variable got another name and the opposite sense.
+bool is_highlight_visible(const ImGuiContext& ui) {
+#if IMGUI_VERSION_NUM >= 19140
+  return ui.NavCursorVisible;
+#else
+  return !ui.NavDisableHighlight;
+#endif
+}
+
+void show_highlight(ImGuiContext& ui) {
+#if IMGUI_VERSION_NUM >= 19140
+  ui.NavCursorVisible = true;
+#else
+  ui.NavDisableHighlight = false;
+#endif
+}
 
 // Moves the keyboard focus to the window's first control, from the next frame on.
 void enter(ImGuiWindow* window) {
   if (window == nullptr) return;
   ImGui::FocusWindow(window);
   ImGui::NavInitWindow(window, true);
-  ImGui::GetCurrentContext()->NavDisableHighlight = false;
+  show_highlight(*ImGui::GetCurrentContext());
 }
 
 }  // namespace
@@ -26,7 +42,7 @@ void update_keyboard_focus(const char* first_window, bool shown) {
       enter(ImGui::FindWindowByName(first_window));
     return;
   }
-  const bool by_mouse = ui.NavDisableHighlight, nowhere = ui.NavId == 0;
+  const bool by_mouse = !is_highlight_visible(ui), nowhere = ui.NavId == 0;
   if (by_mouse || (nowhere && ImGui::IsKeyPressed(ImGuiKey_Escape, false))) {
     ImGui::SetWindowFocus(nullptr);
   } else if (nowhere) {
@@ -34,11 +50,20 @@ void update_keyboard_focus(const char* first_window, bool shown) {
   }
 }
 
+// The flag was moved in Dear ImGui 1.90.9.
+bool begin_child(const char* name, ImVec2 size, ImGuiWindowFlags flags) {
+#if IMGUI_VERSION_NUM >= 19090
+  return ImGui::BeginChild(name, size, ImGuiChildFlags_NavFlattened, flags);
+#else
+  return ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NavFlattened | flags);
+#endif
+}
+
 // Reads the context's state instead of WantCaptureKeyboard, which ImGui updates only in NewFrame.
 bool panel_has_keyboard() {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();
   return ui.IO.WantTextInput || ui.WantTextInputNextFrame == 1 || ui.NavWindowingTarget != nullptr ||
-         (ui.NavWindow != nullptr && !ui.NavDisableHighlight);
+         (ui.NavWindow != nullptr && is_highlight_visible(ui));
 }
 
 }  // namespace gearshift::ui

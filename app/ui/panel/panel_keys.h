@@ -2,11 +2,16 @@
 // the panel.
 #pragma once
 
+#include <imgui.h>
+
 namespace gearshift::ui {
 
 // Call after NewFrame and before drawing the panel's windows. Tab enters the panel at the window `first_window`, if the
 // panel is shown; Escape leaves the panel. Clicking the panel does not move the keyboard focus to it.
 void update_keyboard_focus(const char* first_window, bool shown);
+
+// Begins a child window whose controls the arrow keys reach as if they were its parent's.
+bool begin_child(const char* name, ImVec2 size, ImGuiWindowFlags flags = 0);
 
 // Call between two frames. True if the panel uses the next key press.
 bool panel_has_keyboard();

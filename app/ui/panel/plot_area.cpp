@@ -35,7 +35,7 @@ PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bo
       y_(y),
       x_unit_(x_unit),
       numbers_outside_(numbers_outside) {
-  const float below = x_unit == nullptr ? 0.0f : engine::ui_font(engine::UiFont::small)->FontSize + 2.0f;
+  const float below = x_unit == nullptr ? 0.0f : engine::ui_font_size(engine::UiFont::small) + 2.0f;
   ImGui::Dummy(size);
   high_ = {low_.x + size.x, low_.y + size.y - below};
   list_->AddRectFilled(low_, high_, ink::kWell, 3.0f);
@@ -88,7 +88,7 @@ void PlotArea::draw_y_numbers() {
     highest = y;
   });
   if (!lowest) return;
-  const float min = engine::ui_font(engine::UiFont::small)->FontSize + 1.0f, above = y_number_top(*highest);
+  const float min = engine::ui_font_size(engine::UiFont::small) + 1.0f, above = y_number_top(*highest);
   float below = y_number_top(*lowest);
   draw_y_number(*lowest);
   if (below - above < min) return;
@@ -102,28 +102,28 @@ void PlotArea::draw_y_numbers() {
 }
 
 float PlotArea::y_number_top(double y) const {
-  const float height = engine::ui_font(engine::UiFont::small)->FontSize;
+  const float height = engine::ui_font_size(engine::UiFont::small);
   return std::clamp(at(0.0, y).y - 0.5f * height, low_.y, std::max(low_.y, high_.y - height));
 }
 
 void PlotArea::draw_y_number(double y) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const std::string text = fmt::format("{:g}", y);
-  const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
+  const ImVec2 size = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, text.c_str());
   const float inside = low_.x + 0.2f * engine::ui_em(), outside = low_.x - 0.3f * engine::ui_em() - size.x;
   const ImVec2 place(numbers_outside_ ? outside : inside, y_number_top(y));
   if (!numbers_outside_)
     list_->AddRectFilled(place, {place.x + size.x, place.y + size.y}, engine::with_alpha(ink::kWell, 0.7f), 2.0f);
-  list_->AddText(font, font->FontSize, place, ink::kSoft, text.c_str());
+  list_->AddText(font, engine::ui_font_size(font), place, ink::kSoft, text.c_str());
 }
 
 void PlotArea::draw_x_numbers() {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   each_x([&](double x) {
     const std::string text = x == 0.0 ? fmt::format("0 {}", x_unit_) : fmt::format("{:g}", x);
-    const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str()).x;
+    const float width = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, text.c_str()).x;
     const float place = std::clamp(at(x, 0.0).x - 0.5f * width, low_.x, high_.x - width);
-    list_->AddText(font, font->FontSize, {place, high_.y + 1.0f}, ink::kSoft, text.c_str());
+    list_->AddText(font, engine::ui_font_size(font), {place, high_.y + 1.0f}, ink::kSoft, text.c_str());
   });
 }
 

@@ -146,7 +146,7 @@ void entry(Controls& controls, ImU32 colour, const std::string& text, const char
   const float begin = ImGui::GetCursorPosX();
   controls.legend(colour, text);
   ImGui::SameLine(begin + width, 0.0f);
-  ImGui::Dummy({0.0f, engine::ui_font(engine::UiFont::small)->FontSize});
+  ImGui::Dummy({0.0f, engine::ui_font_size(engine::UiFont::small)});
 }
 
 double max_of(const Strip& one, const Strip& other) {
@@ -219,7 +219,7 @@ void draw_buttons(Controls& controls, const lessons::Player& replay, PanelComman
 void write_unit(ImDrawList& list, ImVec2 corner, const char* unit) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const float width = width_of(unit, engine::UiFont::small) + 0.3f * engine::ui_em();
-  list.AddText(font, font->FontSize, {corner.x - width, corner.y}, ink::kSoft, unit);
+  list.AddText(font, engine::ui_font_size(font), {corner.x - width, corner.y}, ink::kSoft, unit);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/ui/panel/palette.h"
+#include "app/ui/panel/panel_keys.h"
 #include "app/ui/panel/tuning_check.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/gate/gate_feel.h"
@@ -100,10 +101,8 @@ void SetupView::judge(const PanelInput& input) {
 
 void SetupView::draw(Controls& controls, const PanelInput& input, PanelCommands& out) {
   follow(input.haptics);
-  const float verdict =
-      3.0f * engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().ItemSpacing.y;
-  ImGui::BeginChild("values", {0.0f, -ImGui::GetFrameHeightWithSpacing() - verdict}, false,
-                    ImGuiWindowFlags_NavFlattened);
+  const float verdict = 3.0f * engine::ui_font_size(engine::UiFont::small) + 2.0f * ImGui::GetStyle().ItemSpacing.y;
+  begin_child("values", {0.0f, -ImGui::GetFrameHeightWithSpacing() - verdict});
   {
     const engine::WithFont small(engine::UiFont::small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0.15f * engine::ui_em()});

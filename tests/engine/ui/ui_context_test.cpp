@@ -190,7 +190,7 @@ TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have glyph
   const float one = ui_em(), padding = ImGui::GetStyle().FramePadding.x;
   for (const ImWchar letter : {ImWchar(0xb5), ImWchar(0xd7), ImWchar(0xb7), ImWchar(0x2026), ImWchar(0x2264),
                                ImWchar(0x11e), ImWchar(0x3a9), ImWchar(0x416)})
-    CHECK(ui_font(UiFont::body)->FindGlyphNoFallback(letter) != nullptr);
+    CHECK(ui_glyphs(ui_font(UiFont::body)).FindGlyphNoFallback(letter) != nullptr);
   ui.end();
   screen.scale = 3.0f;
   ui.begin(screen);

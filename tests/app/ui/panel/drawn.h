@@ -64,8 +64,8 @@ inline std::string utf8(unsigned letter) {
 
 inline std::vector<DrawnText> drawn_texts() {
   std::map<std::pair<float, float>, std::string> letters;  // the key is the glyph's upper left corner in the atlas
-  for (const ImFont* font : ImGui::GetIO().Fonts->Fonts) {
-    for (const ImFontGlyph& glyph : font->Glyphs)
+  for (ImFont* font : ImGui::GetIO().Fonts->Fonts) {
+    for (const ImFontGlyph& glyph : engine::ui_glyphs(font).Glyphs)
       if (glyph.Visible) letters.emplace(std::pair(glyph.U0, glyph.V0), utf8(glyph.Codepoint));
   }
   std::vector<DrawnText> texts;

@@ -26,8 +26,8 @@ std::vector<Screen> all_screens() {
 }
 
 double text_width(const char* text) {  // [px] width in the small font
-  const ImFont* font = ui_font(UiFont::small);
-  return static_cast<double>(font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x);
+  ImFont* font = ui_font(UiFont::small);
+  return static_cast<double>(font->CalcTextSizeA(ui_font_size(font), 1e9f, 0.0f, text).x);
 }
 
 void check_inside(const PanelRig& rig, const ControlRect& room, const std::vector<std::string>& names) {

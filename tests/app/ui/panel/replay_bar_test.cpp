@@ -140,7 +140,7 @@ TEST_CASE("no number next to the curves touches another number or the unit, and 
       for (std::size_t j = 0; j < i; ++j) {
         CAPTURE(numbers[i].text);
         CAPTURE(numbers[j].text);
-        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font(UiFont::small)->FontSize);
+        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font_size(UiFont::small));
       }
     double right = 0.0;
     for (const DrawnText& number : numbers) right = std::max(right, number.box.max.x);
