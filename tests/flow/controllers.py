@@ -13,6 +13,7 @@ import tempfile
 import time
 
 gearshift, sources = sys.argv[1:3]
+sys.dont_write_bytecode = True  # keeps __pycache__ out of the source tree
 sys.path.insert(0, f"{sources}/tests/support/controllers")
 import emulated_controllers as emulated  # noqa: E402
 

@@ -61,6 +61,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script, 
   if (child == 0) {
     ignore_terminal_signals();
     setenv("LC_ALL", "C.UTF-8", 1);  // available everywhere; gnuplot needs UTF-8 for the degree sign
+    setenv("TERM", "dumb", 1);       // known everywhere; gnuplot complains about a terminal that it does not know
     if (chdir(directory.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
