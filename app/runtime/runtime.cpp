@@ -144,7 +144,9 @@ struct Runtime::State {
   glm::dvec2 start_position() const { return haptics::rest_position(gate, config.start.gear); }
   haptics::HapticConfig running_config() const;
   haptics::TraceHeader header(const char* replay_parameters, bool armed) const;
-  bool requires_arming(const CycleRecord& record) const;
+  bool has_lost_forces(const CycleRecord& record) const;
+  bool wants_forces_after(ForceCause cause) const;
+  bool notice_fault(const CycleRecord& record);
   void switch_to(std::unique_ptr<LoopRun> next);
   void begin();
   void cycle_once();
@@ -187,10 +189,9 @@ struct Runtime::State {
   std::size_t stamps_read = 0;
   std::uint64_t stamped_cycle = 0;
   std::uint64_t commanded_run = 0, commanded_cycle = 0;  // newest cycle when the last command was sent
-  bool wants_forces = false;        // true if the last request was arm(), false after disarm() or stop()
-  bool has_ended = false;           // in an earlier loop, a fault ended the forces; until arm()
-  std::int64_t start_ns = 0;        // [ns] one period before the first cycle, on the loop's clock
-  std::int64_t virtual_ns = 0;      // [ns] time of the last cycle on the virtual clock
+  bool wants_forces = false;                             // see Runtime::wants_forces()
+  std::int64_t start_ns = 0;                             // [ns] one period before the first cycle, on the loop's clock
+  std::int64_t virtual_ns = 0;                           // [ns] time of the last cycle on the virtual clock
   double pending_time = 0.0;        // [s] time passed to advance() but not yet simulated, less than one period
   std::uint64_t unread_cycles = 0;  // number of cycles since the stream was last read; virtual clock only
 };
@@ -281,12 +282,25 @@ haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool 
           config.layout.text, replay_parameters, armed};
 }
 
-bool Runtime::State::requires_arming(const CycleRecord& record) const {
+// True if a fault has ended the forces, or arming was refused, and the lever does not recover by itself. False while the
+// last command may not have been processed: until the second cycle after it.
+bool Runtime::State::has_lost_forces(const CycleRecord& record) const {
   const haptics::HapticSnapshot& now = record.cycle.out;
   if (record.run == commanded_run && now.cycle < commanded_cycle + 2) return false;
   if (now.guard == haptics::GuardState::idle) return now.fault == haptics::GuardFault::stopped;
   return now.guard == haptics::GuardState::released ||
          (now.guard == haptics::GuardState::damped && !haptics::rearms_itself(lever.spec(), now.fault));
+}
+
+bool Runtime::State::wants_forces_after(ForceCause cause) const {
+  return runtime::wants_forces_after(cause, real_device != nullptr, wants_forces);
+}
+
+// Returns true if forces were wanted up to now, and the cycle has a fault.
+bool Runtime::State::notice_fault(const CycleRecord& record) {
+  if (!wants_forces || !has_lost_forces(record)) return false;
+  wants_forces = wants_forces_after(ForceCause::fault);
+  return !wants_forces;
 }
 
 // Replaces the running loop. Returns after the first cycle of the next loop, so that later commands reach that loop and
@@ -308,10 +322,7 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
       std::this_thread::sleep_for(kPollPeriod);
   }
   run = std::move(next);
-  has_ended = has_ended || requires_arming(last);
-  if (!wants_forces || !has_ended) return;
-  wants_forces = false;
-  send(haptics::LoopCommand::stop);
+  if (notice_fault(last)) send(haptics::LoopCommand::stop);
 }
 
 // Runs one cycle on the virtual clock, on which this thread does the work of the driver's and the recorder's threads.
@@ -419,25 +430,19 @@ haptics::AdmittedTuning Runtime::change_tuning(const haptics::HapticTuning& want
   return state_->admitted;
 }
 
-void Runtime::arm() {
-  state_->wants_forces = true;
-  state_->has_ended = false;
-  state_->send(haptics::LoopCommand::arm);
+void Runtime::follow(ForceCause cause) {
+  static constexpr haptics::LoopCommand kCommands[] = {haptics::LoopCommand::none, haptics::LoopCommand::arm,
+                                                       haptics::LoopCommand::disarm, haptics::LoopCommand::stop};
+  const ForceEffect effect = force_effect(cause, state_->real_device != nullptr);
+  if (effect == ForceEffect::keep) return;
+  state_->wants_forces = effect == ForceEffect::on;
+  state_->send(kCommands[static_cast<std::size_t>(effect)]);
 }
 
-void Runtime::disarm() {
-  state_->wants_forces = false;
-  state_->send(haptics::LoopCommand::disarm);
-}
-
-void Runtime::stop() {
-  state_->wants_forces = false;
-  state_->send(haptics::LoopCommand::stop);
-}
-
-bool Runtime::requires_arming() {
+bool Runtime::wants_forces() {
   state_->update_newest();
-  return state_->has_ended || state_->requires_arming(state_->newest);
+  (void)state_->notice_fault(state_->newest);
+  return state_->wants_forces;
 }
 
 LoopHealth Runtime::health() {
@@ -470,8 +475,8 @@ void Runtime::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   std::unique_ptr<LoopRun> next = s.make_run();
   // Forces that were requested count as on even if the loop has not processed the command yet.
-  s.has_ended = s.has_ended || s.requires_arming(s.newest);
-  const bool armed = s.wants_forces && !s.has_ended;
+  (void)s.notice_fault(s.newest);
+  const bool armed = s.wants_forces_after(ForceCause::recording);
   if (armed) next->loop.arm();
   s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed));
   s.recorded_run = next->number;

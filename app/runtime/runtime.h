@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/runtime/cycle_runner.h"
+#include "app/runtime/force_rules.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/device/hand.h"
@@ -122,16 +123,18 @@ class Runtime {
   // `idle`, `armed`, `ramping`, `running` or, after a fault, `damped` or `released`. A simulated lever leaves the state
   // `damped` by itself after 50 ms without a fault, except after GuardFault::chatter (chatter that continued with a
   // softer wall). In all other cases only arm() restores the forces.
-  void arm();
-  void disarm();
-  void stop();
-  // True if a fault has ended the forces, or arming was refused, and only arm() may restore them. False while the last
-  // command may not have been processed: until the second cycle after it.
-  bool requires_arming();
+  void arm() { follow(ForceCause::user_arms); }
+  void disarm() { follow(ForceCause::user_disarms); }
+  void stop() { follow(ForceCause::user_stops); }
+  void follow(ForceCause cause);  // commands what kForceRules says for the lever in use
+  // True if forces are on, or may come back with another loop: not after disarm() or stop(), nor after a fault or a
+  // refused arming, until arm(). A fault is noticed from the second cycle after the last command on, which may not have
+  // been processed earlier.
+  bool wants_forces();
   LoopHealth health();
 
   // Starts a recording. This starts a new loop between two cycles, because a trace can be replayed only from the first
-  // cycle of a loop. If the old loop was armed, the new one is too, with forces ramping up from zero as after arm().
+  // cycle of a loop. The new loop has forces as kForceRules says; they ramp up from zero as after arm().
   // Lever, hand and clock continue; cycles count from 0 again, and the current gear is reported as engaged again
   // (without a gear_left event before). The car continues from its state at the call; guidance fades in again from
   // zero. Throws FileError if the file cannot be created, or std::logic_error if a recording is running. In both cases

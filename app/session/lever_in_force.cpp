@@ -106,9 +106,7 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
 }
 
 void LeverInForce::hand_over(Next next) {
-  if (!runtime_) follow(ForceCause::start);
-  if (runtime_ && runtime_->requires_arming()) follow(ForceCause::fault);
-  if (runtime_ && !has_just_armed_) follow(ForceCause::new_lever);
+  const bool has_forces = wants_forces_after_hand_over();
   runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
   is_new_ = true;
   is_car_held_ = false;
@@ -119,7 +117,15 @@ void LeverInForce::hand_over(Next next) {
     controls_.ignition = switches_->ignition;
     controls_.pedals.hand_brake = switches_->hand_brake;
   }
-  if (wants_forces_) runtime_->arm();
+  if (has_forces) runtime_->arm();
+}
+
+bool LeverInForce::wants_forces_after_hand_over() {
+  using runtime::ForceCause;
+  const ForceCause cause = !runtime_         ? ForceCause::start
+                           : has_just_armed_ ? ForceCause::new_lever_of_armed
+                                             : ForceCause::new_lever;
+  return runtime::wants_forces_after(cause, choice_.stick != nullptr, runtime_ && runtime_->wants_forces());
 }
 
 // The learner's feet stay where they are. A pedal that the instructor holds is not the learner's.
@@ -142,7 +148,6 @@ std::unique_ptr<runtime::Runtime> LeverInForce::replace_runtime(const runtime::R
     return std::make_unique<runtime::Runtime>(config);
   } catch (...) {
     is_new_ = true;
-    follow(ForceCause::fault);
     runtime_ = old_runtime(before);
     throw;
   }
@@ -171,29 +176,20 @@ void LeverInForce::check_lever_gear(const lessons::Lesson& lesson, const haptics
                                        lessons::gear_word(lesson.start.gear), lessons::gear_word(gear)));
 }
 
-void LeverInForce::follow(ForceCause cause) {
-  const ForceRule& rule = rule_of(cause);
-  const ForceEffect effect = choice_.stick ? rule.stick : rule.simulated;
-  if (effect != ForceEffect::keep) wants_forces_ = effect == ForceEffect::on;
-}
-
 // A stick must not start to push when it is plugged in, so it cannot be armed before.
 bool LeverInForce::arm() {
   if (choice_.stick && !choice_.stick->connected()) return false;
-  follow(ForceCause::user_arms);
   has_just_armed_ = true;
   runtime_->arm();
   return true;
 }
 
 void LeverInForce::disarm() {
-  follow(ForceCause::user_disarms);
   has_just_armed_ = false;
   runtime_->disarm();
 }
 
 void LeverInForce::stop() {
-  follow(ForceCause::user_stops);
   has_just_armed_ = false;
   runtime_->stop();
 }
@@ -205,10 +201,7 @@ std::string LeverInForce::begin_frame() {
   while (const std::optional<std::string> one = choice_.stick->take_message())
     news += (news.empty() ? "" : "; ") + *one;
   const bool was_there = std::exchange(is_stick_connected_, choice_.stick->connected());
-  if (was_there && !is_stick_connected_) {
-    follow(ForceCause::stick_lost);
-    runtime_->stop();
-  }
+  if (was_there && !is_stick_connected_) runtime_->follow(runtime::ForceCause::stick_lost);
   return news;
 }
 

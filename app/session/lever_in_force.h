@@ -4,7 +4,6 @@
 // running; hand_over() then replaces the old one. Only one runtime at a time may use a real stick.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,39 +15,6 @@
 #include "app/session/session_choice.h"
 
 namespace gearshift::session {
-
-// Rules of arming and motors-off. A force comes back by a person only: `on` appears beside a user's action, and at the
-// start of a simulated lever, which cannot hurt anybody.
-enum class ForceCause {
-  start,         // the session's first lever
-  user_arms,     // Enter, or "Forces on"; refused while the stick is not plugged in
-  user_disarms,  // "Forces off"
-  user_stops,    // STOP
-  fault,  // the guard ended the forces or refused to arm, see Runtime::requires_arming(); seen when a new lever follows
-  new_lever,   // another gate, car, hand or preset, or a lesson; not in the frame in which the user armed
-  stick_lost,  // the stick was unplugged
-  recording    // a recording starts or ends: Runtime::start_recording() keeps the forces
-};
-enum class ForceEffect { off, keep, on };
-struct ForceRule {
-  ForceCause cause;
-  ForceEffect simulated, stick;  // effect on the forces of a simulated lever and of a real stick
-};
-inline constexpr ForceRule kForceRules[] = {
-    {ForceCause::start, ForceEffect::on, ForceEffect::off},
-    {ForceCause::user_arms, ForceEffect::on, ForceEffect::on},
-    {ForceCause::user_disarms, ForceEffect::off, ForceEffect::off},
-    {ForceCause::user_stops, ForceEffect::off, ForceEffect::off},
-    {ForceCause::fault, ForceEffect::off, ForceEffect::off},
-    {ForceCause::new_lever, ForceEffect::keep, ForceEffect::off},
-    {ForceCause::stick_lost, ForceEffect::keep, ForceEffect::off},
-    {ForceCause::recording, ForceEffect::keep, ForceEffect::keep},
-};
-constexpr const ForceRule& rule_of(ForceCause cause) {
-  return kForceRules[static_cast<std::size_t>(cause)];
-}
-static_assert(std::ranges::all_of(kForceRules, [](const ForceRule& rule) { return &rule_of(rule.cause) == &rule; }),
-              "the rules are in the order of ForceCause");
 
 // Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
 struct CarSwitches {
@@ -83,8 +49,8 @@ class LeverInForce {
   // Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence message; nothing then changes.
   // `lesson`: null if the lever is for free driving.
   Next prepare(const SessionChoice& choice, const lessons::Lesson* lesson) const;
-  // Replaces the lever in force, which then has forces as kForceRules says. If a stick's new lever cannot be made, the
-  // old one is made again, and this throws.
+  // Replaces the lever in force. The new one has forces as runtime::kForceRules says. If a stick's new lever cannot be
+  // made, the old one is made again, without forces, and this throws.
   void hand_over(Next next);
 
   // Switches forces on. Returns false if this is refused, because the stick is not plugged in.
@@ -125,7 +91,7 @@ class LeverInForce {
 
  private:
   void hand_over_pedals(runtime::RuntimeConfig& config) const;
-  void follow(ForceCause cause);
+  bool wants_forces_after_hand_over();
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
   std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
   std::unique_ptr<runtime::Runtime> old_runtime(runtime::RuntimeConfig config) const;
@@ -137,8 +103,7 @@ class LeverInForce {
   std::optional<CarSwitches> switches_;
   bool is_car_held_ = false;
   double start_brake_ = 0.0;         // [1] foot brake that the instructor still holds at the start of a lesson
-  bool wants_forces_ = false;        // forces are on, or ended by a fault that was not noticed yet
-  bool has_just_armed_ = false;      // the user switched forces on in this frame
+  bool has_just_armed_ = false;      // the user switched forces on in this frame; see ForceCause::new_lever_of_armed
   bool is_stick_connected_ = false;  // the stick was connected in the previous frame
   bool is_new_ = false;
 };

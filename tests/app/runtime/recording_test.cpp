@@ -252,13 +252,13 @@ TEST_CASE("a fault outlasts any number of recordings: only the user restores the
     runtime.start_recording(folder / name);
     runtime.advance(1.0);
     CHECK(runtime.snapshot().commanded == glm::dvec2(0.0));
-    CHECK(runtime.requires_arming());
+    CHECK_FALSE(runtime.wants_forces());
     CHECK_FALSE(runtime.stop_recording());
   }
   runtime.arm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().guard == GuardState::running);
-  CHECK_FALSE(runtime.requires_arming());
+  CHECK(runtime.wants_forces());
 
   runtime.start_recording(folder / "c.trace");  // the fault of an earlier loop is over
   runtime.advance(1.0);

@@ -67,8 +67,9 @@ struct ForcesRig {
   void cause(ForceCause what) {
     switch (what) {
       case ForceCause::start:
-      case ForceCause::stick_lost:
         return;
+      case ForceCause::stick_lost:  // a session with a simulated lever has no stick to lose
+        return session.runtime().follow(ForceCause::stick_lost);
       case ForceCause::user_arms:
         return session.apply(Arm{});
       case ForceCause::user_disarms:
@@ -80,6 +81,8 @@ struct ForcesRig {
         return change(2);
       case ForceCause::new_lever:
         return change(0);
+      case ForceCause::new_lever_of_armed:
+        return session.apply(PanelCommands{Arm{}, ChooseGate{"four_speed"}});
       case ForceCause::recording:
         session.apply(ToggleRecording{});
         go(0.5);
@@ -98,7 +101,7 @@ struct ForcesRig {
 constexpr std::pair<ForceCause, std::optional<bool>> kSimulatedForces[] = {
     {ForceCause::start, true},       {ForceCause::user_arms, true}, {ForceCause::user_disarms, false},
     {ForceCause::user_stops, false}, {ForceCause::fault, false},    {ForceCause::new_lever, {}},
-    {ForceCause::stick_lost, {}},    {ForceCause::recording, {}},
+    {ForceCause::stick_lost, {}},    {ForceCause::recording, {}},   {ForceCause::new_lever_of_armed, true},
 };
 static_assert(std::size(kSimulatedForces) == std::size(kForceRules));
 

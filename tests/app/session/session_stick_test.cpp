@@ -79,6 +79,10 @@ struct HeldRig {
     }
     for (int i = 0; i < 10; ++i) frame();
   }
+  void be_silent(bool on) {
+    const std::lock_guard lock(held.mutex);
+    held.stick.faults.silent = on;
+  }
   void tap_stop() {  // without a frame
     for (const std::uint64_t buttons : {std::uint64_t{1u << 2}, std::uint64_t{0}}) {
       {
@@ -119,14 +123,22 @@ struct HeldRig {
 
 }  // namespace
 
-// Every rule of the table, on a stick whose forces were on, and on one whose forces were off. The rule of a fault has
-// no case of its own, because a stick's new lever is without forces whatever happened before.
+// Every rule of the table, on a stick whose forces were on, and on one whose forces were off. A fault is followed by a
+// recording, which on its own keeps the forces.
 TEST_CASE("each rule of arming and motors-off, on a stick") {
   const auto cause = [](HeldRig& rig, ForceCause what) {
     if (what == ForceCause::user_arms) rig.arm();
     if (what == ForceCause::user_disarms) rig.session->apply(Disarm{});
     if (what == ForceCause::user_stops) rig.session->apply(Stop{});
     if (what == ForceCause::new_lever) rig.session->apply(ChooseGate{"four_speed"});
+    if (what == ForceCause::new_lever_of_armed) rig.session->apply(PanelCommands{Arm{}, ChooseGate{"four_speed"}});
+    if (what == ForceCause::fault) {
+      rig.be_silent(true);
+      REQUIRE(rig.becomes_true([&] { return rig.guard() != GuardState::running; }));
+      rig.be_silent(false);
+      for (int i = 0; i < 10; ++i) rig.frame();
+      rig.session->apply(ToggleRecording{});
+    }
     if (what == ForceCause::recording) rig.session->apply(ToggleRecording{});
     if (what == ForceCause::stick_lost) {
       rig.held.unplug();
@@ -139,8 +151,9 @@ TEST_CASE("each rule of arming and motors-off, on a stick") {
   const std::pair<ForceCause, std::optional<bool>> wanted[] = {
       {ForceCause::start, false},      {ForceCause::user_arms, true},  {ForceCause::user_disarms, false},
       {ForceCause::user_stops, false}, {ForceCause::new_lever, false}, {ForceCause::stick_lost, false},
-      {ForceCause::recording, {}},
+      {ForceCause::recording, {}},     {ForceCause::fault, false},     {ForceCause::new_lever_of_armed, true},
   };
+  static_assert(std::size(wanted) == std::size(kForceRules));
   for (const auto& rule : wanted) {
     const ForceCause what = rule.first;
     const std::optional<bool>& forces = rule.second;
