@@ -154,6 +154,7 @@ struct Runtime::State {
   void update_newest();
   void read_records();
   void note_stages(const haptics::StageStamps& stamps);
+  void update_health();
   void send(haptics::LoopCommand command);
 
   bool is_virtual() const { return config.clock == RuntimeClock::virtual_time; }
@@ -183,7 +184,8 @@ struct Runtime::State {
   haptics::EventDetector detector;
   std::uint64_t last_read_run = 0;
   std::vector<haptics::HapticEvent> events;  // not yet returned by read_frame()
-  haptics::DurationHistogram lateness;
+  std::vector<std::int64_t> lateness;        // [ns] of `cycles`
+  LoopHealth health;                         // as of the last read_frame()
   // [ns] durations of the stages in the latest stamped cycles
   std::array<std::array<std::int64_t, 8>, kStamps> stages{};
   std::size_t stamps_read = 0;
@@ -254,7 +256,9 @@ std::unique_ptr<LoopRun> Runtime::State::make_run() {
 
 void Runtime::State::begin() {
   runner.switch_to(*run);
+  health.rate = config.preset.haptics.rate;
   if (is_virtual()) {
+    health.not_realtime_reason = "not real-time, because the virtual clock is used";
     start_ns = virtual_ns = -period_ns;
     return;
   }
@@ -265,6 +269,8 @@ void Runtime::State::begin() {
   haptics::RealtimeConfig realtime;
   realtime.period_ns = period_ns;
   thread.start(realtime, [this](const haptics::CycleCall& call) { runner.cycle(call, &thread.statistics()); });
+  health.realtime = thread.is_realtime();
+  health.not_realtime_reason = thread.not_realtime_reason();
   for (update_newest(); newest.run != run->number; update_newest()) std::this_thread::sleep_for(kPollPeriod);
   start_ns = newest.cycle.deadline_ns - period_ns;
 }
@@ -345,10 +351,12 @@ void Runtime::State::update_newest() {
 void Runtime::State::read_records() {
   unread_cycles = 0;
   for (CycleRecord record; reader.pop(record);) {
-    if (cycles.size() < CycleRunner::kMaxRecords) cycles.push_back(record.sample());
+    if (cycles.size() < CycleRunner::kMaxRecords) {
+      cycles.push_back(record.sample());
+      lateness.push_back(record.late_ns);
+    }
     if (std::exchange(last_read_run, record.run) != record.run) detector = {};
     detector.update(record.cycle, events);
-    lateness.add(record.late_ns);
     note_stages(record.stamps);
   }
 }
@@ -358,6 +366,30 @@ void Runtime::State::note_stages(const haptics::StageStamps& stamps) {
   stamped_cycle = stamps.cycle;
   std::array<std::int64_t, 8>& latest = stages[stamps_read++ % kStamps];
   for (std::size_t i = 0; i < latest.size(); ++i) latest[i] = stamps.ns[i + 1] - stamps.ns[i];
+}
+
+void Runtime::State::update_health() {
+  std::sort(lateness.begin(), lateness.end());
+  const auto late = [this](double quantile) {  // [s] nearest rank
+    if (lateness.empty()) return 0.0;
+    const double rank = std::max(1.0, std::ceil(quantile * static_cast<double>(lateness.size())));
+    return 1e-9 * static_cast<double>(lateness[static_cast<std::size_t>(rank) - 1]);
+  };
+  health.late_p50 = late(0.5);
+  health.late_p99 = late(0.99);
+  health.late_worst = late(1.0);
+  lateness.clear();
+  health.overruns = newest.overruns;
+  health.skipped = newest.missed;
+  health.unseen = reader.lost();
+  const std::size_t stamped = std::min(stamps_read, kStamps);
+  health.cycle_ns = 0.0;
+  for (std::size_t stage = 0; stage < health.stage_ns.size(); ++stage) {
+    health.stage_ns[stage] = 0.0;
+    for (std::size_t i = 0; i < stamped; ++i)
+      health.stage_ns[stage] += static_cast<double>(stages[i][stage]) / static_cast<double>(stamped);
+    health.cycle_ns += health.stage_ns[stage];
+  }
 }
 
 // Queues the command; the loop processes one command per cycle. If the queue is full on the virtual clock, which may be
@@ -397,6 +429,7 @@ const haptics::AdmittedTuning& Runtime::admitted() const noexcept {
 RuntimeFrame Runtime::read_frame() {
   state_->read_records();
   state_->update_newest();  // after the records, so that the state is not older
+  state_->update_health();
   const CycleRecord& newest = state_->newest;
   return {std::exchange(state_->cycles, {}), std::exchange(state_->events, {}), newest.cycle.out, newest.car};
 }
@@ -445,29 +478,8 @@ bool Runtime::wants_forces() {
   return state_->wants_forces;
 }
 
-LoopHealth Runtime::health() {
-  State& s = *state_;
-  s.read_records();
-  s.update_newest();
-  LoopHealth health;
-  health.rate = s.config.preset.haptics.rate;
-  health.late_p50 = 1e-9 * static_cast<double>(s.lateness.quantile(0.5));
-  health.late_p99 = 1e-9 * static_cast<double>(s.lateness.quantile(0.99));
-  health.late_worst = 1e-9 * static_cast<double>(s.lateness.max());
-  s.lateness = {};
-  health.overruns = s.newest.overruns;
-  health.skipped = s.newest.missed;
-  health.unseen = s.reader.lost();
-  const std::size_t stamped = std::min(s.stamps_read, kStamps);
-  for (std::size_t stage = 0; stage < health.stage_ns.size(); ++stage) {
-    for (std::size_t i = 0; i < stamped; ++i)
-      health.stage_ns[stage] += static_cast<double>(s.stages[i][stage]) / static_cast<double>(stamped);
-    health.cycle_ns += health.stage_ns[stage];
-  }
-  health.realtime = s.thread.is_realtime();
-  health.not_realtime_reason =
-      s.is_virtual() ? "not real-time, because the virtual clock is used" : s.thread.not_realtime_reason();
-  return health;
+const LoopHealth& Runtime::health() const noexcept {
+  return state_->health;
 }
 
 void Runtime::start_recording(const std::filesystem::path& file) {

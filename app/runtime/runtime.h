@@ -61,7 +61,7 @@ struct RuntimeConfig {
 // Timing of the haptic thread.
 struct LoopHealth {
   double rate = 0.0;  // [Hz] as configured
-  // [s] Time from deadline to wake-up since the last call of health(): median, 99th percentile and maximum.
+  // [s] Time from deadline to wake-up in the cycles of the last frame: median, 99th percentile and maximum.
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
   std::uint64_t overruns = 0;  // number of cycles since the start that took longer than a period
   std::uint64_t skipped = 0;   // number of deadlines since the start that were missed, by overruns or late wake-ups
@@ -76,9 +76,8 @@ struct LoopHealth {
 
 // Returned by Runtime::read_frame(): what happened since the last call, in order, and the state after it.
 struct RuntimeFrame {
-  // If more than 8192 cycles were read since the last call (health() reads cycles, too), the newest are missing. If
-  // neither was called for more than 8192 cycles, the oldest are missing; LoopHealth::unseen counts only these.
-  // HapticSnapshot::cycle shows the gap.
+  // If more than 8192 cycles have run since the last call, some are missing: on the real clock the oldest, which
+  // LoopHealth::unseen counts, and on the virtual clock the newest. HapticSnapshot::cycle shows the gap.
   std::vector<vehicle::DriveSample> cycles;
   std::vector<haptics::HapticEvent> events;
   haptics::HapticSnapshot lever;  // never older than the cycles
@@ -131,7 +130,7 @@ class Runtime {
   // refused arming, until arm(). A fault is noticed from the second cycle after the last command on, which may not have
   // been processed earlier.
   bool wants_forces();
-  LoopHealth health();
+  const LoopHealth& health() const noexcept;  // as of the last read_frame(), or of the start
 
   // Starts a recording. This starts a new loop between two cycles, because a trace can be replayed only from the first
   // cycle of a loop. The new loop has forces as kForceRules says; they ramp up from zero as after arm().

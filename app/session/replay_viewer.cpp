@@ -6,6 +6,7 @@ namespace gearshift::session {
 
 void ReplayViewer::open(const std::filesystem::path& recording, std::optional<double> near) {
   opening_ = std::make_unique<lessons::DriveLoader>(recording);
+  opening_name_ = recording.filename().string();
   near_ = near;
 }
 

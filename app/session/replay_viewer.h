@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/lessons/replay/drive_loader.h"
 #include "app/lessons/replay/player.h"
@@ -18,7 +19,7 @@ class ReplayViewer {
   void open(const std::filesystem::path& recording, std::optional<double> near);
   bool is_opening() const { return opening_ != nullptr; }
   bool is_opened() const { return opening_ && opening_->is_over(); }  // take() does not wait
-  std::string opening_name() const { return opening_ ? opening_->file().filename().string() : std::string(); }
+  std::string_view opening_name() const { return opening_ ? std::string_view(opening_name_) : std::string_view(); }
   // The opened recording; waits until it is read. Throws FileError, std::invalid_argument or std::runtime_error with a
   // one-sentence message.
   lessons::Player take();
@@ -32,6 +33,7 @@ class ReplayViewer {
 
  private:
   std::unique_ptr<lessons::DriveLoader> opening_;  // not null while a recording is being read
+  std::string opening_name_;                       // of its file
   std::optional<double> near_;                     // [s] see open()
   std::optional<lessons::Player> player_;          // not empty during a replay
 };

@@ -166,13 +166,11 @@ void Session::show_replay(double seconds) {
   history_ = plot_samples(player.passed());
 }
 
-ui::PanelInput Session::panel_input() {
+ui::PanelInput Session::panel_input() const {
   const lessons::CoachView& coach = director_.view();
   const SessionChoice& running = lever_.running();
-  runtime::Runtime& runtime = lever_.runtime();
+  const runtime::Runtime& runtime = lever_.runtime();
   const bool is_automatic_hand = running.hand == kAutomaticHand;
-  panel_.health = runtime.health();
-  panel_.opening = viewer_.opening_name();
   return {.gate = displayed_gate(),
           .device = runtime.device(),
           .haptics = runtime.config().preset.haptics,
@@ -181,7 +179,7 @@ ui::PanelInput Session::panel_input() {
           .run = run_,
           .history = history_,
           .events = viewer_.player() != nullptr ? std::span<const haptics::HapticEvent>() : events_,
-          .health = panel_.health,
+          .health = runtime.health(),
           .car = car_,
           .gate_name = running.gate,
           .preset_name = running.preset,
@@ -203,7 +201,7 @@ ui::PanelInput Session::panel_input() {
           .cars = panel_.cars,
           .coach = coach,
           .replay = viewer_.player(),
-          .opening = panel_.opening,
+          .opening = viewer_.opening_name(),
           .keys = panel_.keys,
           .mouse_moves_lever = panel_.mouse_moves_lever,
           .is_automatic_hand = is_automatic_hand,

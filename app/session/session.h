@@ -47,7 +47,7 @@ class Session {
   const cabin::Stage& stage() const { return *stage_; }
   void set_camera(std::string_view camera);  // see cabin_for_camera()
   bool take_new_model();                     // true once after the stage was rebuilt
-  ui::PanelInput panel_input();              // valid until the next call of another function of this session
+  ui::PanelInput panel_input() const;        // valid until the next call of a function that is not const
   runtime::Runtime& runtime() { return lever_.runtime(); }
   const lessons::Coach& coach() const { return director_.coach(); }
   const haptics::HapticSnapshot& shown() const { return shown_; }  // lever shown in the cabin, live or replayed
@@ -86,12 +86,11 @@ class Session {
   // Data for the panel that no other member holds.
   struct PanelData {
     std::vector<std::string> gates, presets, cars, hands;
-    std::string device_name, opening;
+    std::string device_name;
     std::optional<haptics::Preset> compared;
     std::optional<cabin::HeadsetReport> headset;
     std::vector<ui::KeyHint> keys;
     bool mouse_moves_lever = false;
-    runtime::LoopHealth health;
   };
 
   // Defined in session.cpp.

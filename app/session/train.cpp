@@ -84,8 +84,10 @@ class WindowTrainer {
   int finish() {
     print_unsaved(session_.save_and_stop());
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
-    if (!session_.lever().take_new_runtime())
-      health_ = session_.runtime().health();  // includes cycles after the last frame
+    if (!session_.lever().take_new_runtime()) {
+      (void)session_.runtime().read_frame();  // the cycles after the last frame
+      health_ = session_.runtime().health();
+    }
     print_health(health_);
     if (!session_.recording()) return 0;
     const bool is_complete = session_.end_recording();

@@ -64,6 +64,9 @@ void operator delete(void* memory, std::size_t) noexcept {
 
 namespace {
 
+static_assert(
+    requires(const Session& session) { session.panel_input(); }, "the panel's input is read, not computed");
+
 constexpr std::array kTabs{"tab_lesson", "tab_history", "tab_tuning", "tab_setup", "tab_loop", "tab_presets"};
 
 // Runs of the same lesson with the same result, so that histories differ only in their length.
