@@ -1,13 +1,13 @@
 #include "app/runtime/cycle_runner.h"
 
-#include <algorithm>
-
-#include "haptics/rt/monotonic_clock.h"
-
 namespace gearshift::runtime {
 
 void CycleRunner::cycle(const haptics::CycleCall& call, const haptics::CycleStatistics* statistics) noexcept {
-  if (statistics != nullptr) record_.late_ns = lateness(call, *statistics);
+  record_.late_ns = call.late_ns;
+  if (statistics != nullptr) {
+    record_.overruns = statistics->overruns;
+    record_.skipped = statistics->skipped;
+  }
   if (next_.load(std::memory_order_relaxed) != nullptr) start_next();
   if (run_ == nullptr) return;
   run_->loop.cycle(call.deadline_ns, call.skipped);
@@ -19,17 +19,6 @@ void CycleRunner::start_next() noexcept {
   LoopRun* const next = next_.exchange(nullptr, std::memory_order_acquire);
   if (run_ != nullptr && run_->car && next->car) next->car->place_pedals(run_->car->keyboard());
   run_ = next;
-}
-
-// [ns] How late the thread woke up. This includes the deadlines that the thread slept through, but not those that
-// passed during an overrun, when it was busy.
-std::int64_t CycleRunner::lateness(const haptics::CycleCall& call,
-                                   const haptics::CycleStatistics& statistics) noexcept {
-  const bool was_at_work = statistics.overruns != record_.overruns;
-  record_.overruns = statistics.overruns;
-  record_.missed = statistics.skipped;
-  const std::int64_t slept_for = was_at_work ? 0 : call.skipped * period_ns_;
-  return std::max<std::int64_t>(0, haptics::monotonic_ns() - call.deadline_ns) + slept_for;
 }
 
 void CycleRunner::publish() noexcept {

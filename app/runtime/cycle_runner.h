@@ -36,14 +36,13 @@ struct LoopRun {
 };
 
 struct CycleRecord {
-  haptics::TraceSample cycle;   // inputs and outputs of the loop
-  vehicle::VehicleState car;    // default values if there is no car
-  haptics::Pedals keyboard;     // see CarLoad::keyboard()
-  haptics::StageStamps stamps;  // of this cycle, or of an earlier one
-  std::uint64_t run = 0;        // LoopRun::number; 0: before the first cycle
-  std::int64_t late_ns = 0;     // [ns] from the deadline to the wake-up of the thread
-  std::uint64_t overruns = 0;   // see CycleStatistics
-  std::uint64_t missed = 0;     // CycleStatistics::skipped
+  haptics::TraceSample cycle;               // inputs and outputs of the loop
+  vehicle::VehicleState car;                // default values if there is no car
+  haptics::Pedals keyboard;                 // see CarLoad::keyboard()
+  haptics::StageStamps stamps;              // of this cycle, or of an earlier one
+  std::uint64_t run = 0;                    // LoopRun::number; 0: before the first cycle
+  std::int64_t late_ns = 0;                 // [ns] see CycleCall
+  std::uint64_t overruns = 0, skipped = 0;  // since the start; see CycleStatistics
   vehicle::DriveSample sample() const noexcept { return {cycle.out, cycle.controls, car}; }
 };
 using CycleStream = haptics::Broadcast<CycleRecord>;
@@ -51,8 +50,6 @@ using CycleStream = haptics::Broadcast<CycleRecord>;
 class CycleRunner {
  public:
   static constexpr std::size_t kMaxRecords = 8192;  // 8 s of cycles at 1 kHz, 2 s at 4 kHz
-
-  explicit CycleRunner(std::int64_t period_ns) : period_ns_(period_ns) {}  // [ns] period of the thread
 
   // Runs one cycle; real-time safe. `statistics`: those of the calling thread; null on the virtual clock, on which no
   // cycle is late.
@@ -70,11 +67,9 @@ class CycleRunner {
   CycleStream stream{kMaxRecords};
 
  private:
-  std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
   void start_next() noexcept;
   void publish() noexcept;
 
-  std::int64_t period_ns_;
   std::atomic<LoopRun*> next_{nullptr};
   LoopRun* run_ = nullptr;
   CycleRecord record_;

@@ -204,7 +204,6 @@ Runtime::State::State(const RuntimeConfig& wanted)
       period_ns(haptics::period_ns(config.preset.haptics)),
       real_device(make_lever(config)),
       gate(gate_for(config, real_device.get())),
-      runner(period_ns),
       input(static_cast<bool>(config.driver), resting_action(), config.pedal_keys, runner.inputs),
       hand(real_device ? nullptr : make_hand()),
       simulated(real_device ? nullptr
@@ -380,8 +379,8 @@ void Runtime::State::update_health() {
   health.late_worst = late(1.0);
   lateness.clear();
   health.overruns = newest.overruns;
-  health.skipped = newest.missed;
-  health.unseen = reader.lost();
+  health.skipped = newest.skipped;
+  health.lost = reader.lost();
   const std::size_t stamped = std::min(stamps_read, kStamps);
   health.cycle_ns = 0.0;
   for (std::size_t stage = 0; stage < health.stage_ns.size(); ++stage) {

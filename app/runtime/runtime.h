@@ -65,7 +65,7 @@ struct LoopHealth {
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
   std::uint64_t overruns = 0;  // number of cycles since the start that took longer than a period
   std::uint64_t skipped = 0;   // number of deadlines since the start that were missed, by overruns or late wake-ups
-  std::uint64_t unseen = 0;    // number of cycles since the start that were overwritten before the caller read them
+  std::uint64_t lost = 0;      // number of cycles since the start that were overwritten before the caller read them
   // [ns] Mean durations of the eight stages of a cycle: read, estimate, proxy, couple, feel, load, guard and write;
   // over the latest cycles with time stamps.
   std::array<double, 8> stage_ns{};
@@ -77,7 +77,7 @@ struct LoopHealth {
 // Returned by Runtime::read_frame(): what happened since the last call, in order, and the state after it.
 struct RuntimeFrame {
   // If more than 8192 cycles have run since the last call, some are missing: on the real clock the oldest, which
-  // LoopHealth::unseen counts, and on the virtual clock the newest. HapticSnapshot::cycle shows the gap.
+  // LoopHealth::lost counts, and on the virtual clock the newest. HapticSnapshot::cycle shows the gap.
   std::vector<vehicle::DriveSample> cycles;
   std::vector<haptics::HapticEvent> events;
   haptics::HapticSnapshot lever;  // never older than the cycles

@@ -29,7 +29,7 @@ inline void print_events(std::span<const haptics::HapticEvent> events, bool push
 inline void print_health(const std::optional<runtime::LoopHealth>& health) {
   if (!health) return;
   base::print_out("loop: {} deadlines missed, {} cycles too long, {} cycles unread, {}\n", health->skipped,
-                  health->overruns, health->unseen, health->realtime ? "real-time" : "not real-time");
+                  health->overruns, health->lost, health->realtime ? "real-time" : "not real-time");
   std::fflush(stdout);
 }
 

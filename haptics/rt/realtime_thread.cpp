@@ -108,7 +108,7 @@ void append(std::string& sentence, const std::string& part) {
 // skipped.
 CycleCall skip_to_newest(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
   const std::int64_t missed = (woke - call.deadline_ns) / period;
-  return {call.deadline_ns + missed * period, call.skipped + missed};
+  return {call.deadline_ns + missed * period, call.skipped + missed, woke - call.deadline_ns};
 }
 
 // Returns the first deadline after the end of a cycle; deadlines that have passed are skipped.
@@ -185,8 +185,8 @@ void RealtimeThread::run() noexcept {
   while (true) {
     const std::int64_t woke = wait_until(next.deadline_ns);
     if (stop_.load(std::memory_order_relaxed)) return;
-    statistics_.wake_lateness.add(woke - next.deadline_ns);
     next = skip_to_newest(next, woke, period);
+    statistics_.wake_lateness.add(next.late_ns);
     statistics_.skipped += static_cast<std::uint64_t>(next.skipped);
 
     cycle_(next);

@@ -28,6 +28,9 @@ struct RealtimeConfig {
 struct CycleCall {
   std::int64_t deadline_ns;  // [ns] CLOCK_MONOTONIC, start + k * period
   std::int64_t skipped;      // deadlines missed since the last call, normally 0
+  // [ns] From the deadline for which the thread waited to its wake-up. Includes the deadlines that it slept through, but
+  // not those that passed during an overrun, when it was busy.
+  std::int64_t late_ns = 0;
 };
 
 // Runs `cycle` once per period until stop(). After a late cycle the missed deadlines are skipped and never caught up;

@@ -16,7 +16,7 @@ TEST_CASE("skipped deadlines are counted, and separately the cycles that took to
   LatestValue<HandTarget> person{HandTarget{}};
   SmoothedHand hand(person, period_s(config));
   SimulatedLever lever(SimulatedLeverConfig{}, period_ns(config), hand);
-  CycleRunner runner(period_ns(config));
+  CycleRunner runner;
   LoopRun run(config, gate, lever, runner.inputs, 1);
   runner.switch_to(run);
   CycleStatistics statistics;
@@ -30,10 +30,11 @@ TEST_CASE("skipped deadlines are counted, and separately the cycles that took to
     statistics.skipped = skipped;
     statistics.overruns = overruns;
     deadline += (1 + missed) * period_ns(config);
-    runner.cycle({deadline, missed}, &statistics);
-    CHECK(runner.stream.newest()->missed == skipped);
+    runner.cycle({deadline, missed, missed * period_ns(config) + i}, &statistics);
+    CHECK(runner.stream.newest()->skipped == skipped);
+    CHECK(runner.stream.newest()->late_ns == missed * period_ns(config) + i);
     CHECK(runner.stream.newest()->overruns == overruns);
   }
-  CHECK(runner.newest().missed == 12);
+  CHECK(runner.newest().skipped == 12);
   CHECK(runner.newest().overruns == 2);
 }

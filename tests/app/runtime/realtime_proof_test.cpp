@@ -28,7 +28,7 @@ void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
   SimulatedLeverConfig config;
   config.hand = kGripHand;
   SimulatedLever lever(config, kPeriod, hand);
-  auto runner = std::make_unique<CycleRunner>(kPeriod);
+  auto runner = std::make_unique<CycleRunner>();
   auto first = std::make_unique<LoopRun>(HapticConfig{}, gate, lever, runner->inputs, 1);
   const CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
   auto second = std::make_unique<LoopRun>(HapticConfig{}, gate, lever, runner->inputs, 2,

@@ -46,7 +46,7 @@ TEST_CASE("moved at 60 frames per second through any shipped gate, the gears eng
       CHECK(runtime.snapshot().gear == gear);
     }
     CHECK(gears == wanted);
-    CHECK(runtime.health().unseen == 0);
+    CHECK(runtime.health().lost == 0);
     if (name == "paper") CHECK(gears == kPaperTour);
   }
 }

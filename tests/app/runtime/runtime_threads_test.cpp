@@ -47,7 +47,7 @@ TEST_CASE("while a frame hangs for a second, the lever keeps running, and no cyc
   for (std::size_t i = 1; i < cycles.size(); ++i)
     CHECK(cycles[i].lever.cycle == cycles[i - 1].lever.cycle + 1);  // no cycle is missing
   CHECK(cycles.back().lever.cycle >= after.cycle);
-  CHECK(runtime.health().unseen == 0);
+  CHECK(runtime.health().lost == 0);
   // After a frame that hung for 1 s, the loop still reacts to commands.
   runtime.stop();
   CHECK(becomes_true([&] { return runtime.snapshot().guard == GuardState::released; }));

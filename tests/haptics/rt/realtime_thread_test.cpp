@@ -92,6 +92,16 @@ TEST_CASE("real-time thread: every deadline lies on the grid of the first, and s
   }
 }
 
+TEST_CASE("real-time thread: a cycle is told how late it is, with the deadlines that its thread slept through") {
+  haptics::RealtimeThread thread;
+  for (const RecordedCycle& cycle : run_cycles(thread, 50, [](std::size_t, const haptics::CycleCall&) {})) {
+    const std::int64_t late = cycle.call.late_ns;
+    CHECK(late >= 0);
+    CHECK(late / kPeriod <= cycle.call.skipped);
+    CHECK(late % kPeriod <= cycle.began - cycle.call.deadline_ns);  // the cycle begins after the wake-up
+  }
+}
+
 TEST_CASE("real-time thread: no cycle begins before its deadline, with and without spinning") {
   for (const std::int64_t spin : {0, 50'000, 5'000'000}) {
     haptics::RealtimeConfig config;
