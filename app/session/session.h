@@ -31,8 +31,8 @@ class Session {
   // Call lever().set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a
   // frame. They do not throw: if a command is rejected, message() says why.
   LeverInForce& lever() { return lever_; }
-  // Executes the commands in this order. STOP is executed before all others too, and a rejected command does not stop
-  // those after it.
+  // Executes the commands in this order, except that STOP comes first and cancels any arming before it. A rejected
+  // command does not stop those after it.
   void apply(const ui::PanelCommands& commands);
   void apply(const ui::PanelCommand& command) { apply(ui::PanelCommands{command}); }
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events

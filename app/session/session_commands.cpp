@@ -1,4 +1,5 @@
 // Executes the user's commands from the panel.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -27,7 +28,7 @@ bool same_geometry(const haptics::YokeGeometry& a, const haptics::YokeGeometry& 
 struct Session::Handlers {
   Session& session;
 
-  void operator()(const ui::Stop&) const { session.lever_.stop(); }
+  void operator()(const ui::Stop&) const {}  // executed by apply()
   void operator()(const ui::Arm&) const { session.arm(); }
   void operator()(const ui::Disarm&) const { session.lever_.disarm(); }
   void operator()(const ui::ToggleRecording&) const { session.toggle_recording(); }
@@ -119,11 +120,13 @@ struct Session::Handlers {
 
 void Session::apply(const ui::PanelCommands& commands) {
   std::string rejected;  // reported last, because the commands that follow may set another message
-  for (const ui::PanelCommand& command : commands)
-    if (std::holds_alternative<ui::Stop>(command)) lever_.stop();  // at once, as others may take long
-  for (const ui::PanelCommand& command : commands) {
+  const auto is_stop = [](const ui::PanelCommand& command) { return std::holds_alternative<ui::Stop>(command); };
+  const auto after_stop = std::find_if(commands.rbegin(), commands.rend(), is_stop).base();
+  if (after_stop != commands.begin()) lever_.stop();  // at once, as others may take long
+  for (auto command = commands.begin(); command != commands.end(); ++command) {
+    if (command < after_stop && std::holds_alternative<ui::Arm>(*command)) continue;
     try {
-      std::visit(Handlers{*this}, command);
+      std::visit(Handlers{*this}, *command);
     } catch (const std::exception& refused) {
       rejected += (rejected.empty() ? "" : "; ") + std::string(refused.what());
     }

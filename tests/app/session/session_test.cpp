@@ -113,6 +113,14 @@ TEST_CASE("STOP comes before the other commands, whatever becomes of them") {
   rig.session.apply(PanelCommands{Arm{}, Stop{}});
   rig.go(2.0);
   CHECK(rig.session.runtime().snapshot().guard == GuardState::released);
+  rig.session.apply(Disarm{});
+  rig.go(1.0);
+  rig.session.apply(PanelCommands{Arm{}, ChooseGate{"paper"}, Stop{}});
+  rig.go(2.0);
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);
+  rig.session.apply(PanelCommands{Arm{}, Stop{}});
+  rig.go(2.0);
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);  // STOP also comes before an arming before it
 }
 
 TEST_CASE("a change of hand also keeps a restart's configuration and the tuning after it") {
