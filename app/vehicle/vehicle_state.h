@@ -30,9 +30,9 @@ struct VehicleState {
   bool over_revved = false;    // the engine turns faster than its red line
   bool fuel_cut = false;       // the rev limiter has cut the fuel
   bool cranking = false;       // the starter turns the engine
-  double idle_integral = 0.0;  // [1] and
-  double idle_lift = 0.0;      // [rad/s] and
-  double cranked = 0.0;        // [rad] state of the engine's control, see EngineState
+  double idle_integral = 0.0;  // [1] EngineState::integral
+  double idle_lift = 0.0;      // [rad/s] EngineState::lift
+  double cranked = 0.0;        // [rad] EngineState::cranked
   double shudder = 0.0;        // [1] 0 to 1: vibration of a labouring or dying engine
   int shift_advice = 0;        // +1: shift up; -1: shift down, because the engine labours; 0: stay
 

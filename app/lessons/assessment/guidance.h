@@ -2,7 +2,8 @@
 //
 // This work is based on:
 // Jeremy L. Emken, Raul Benitez, David J. Reinkensmeyer. Human-robot cooperative movement training: learning a novel
-// sensory motor transformation during walking with robotic assistance-as-needed. 2007 (gain = forgetting x gain + k error)
+// sensory motor transformation during walking with robotic assistance-as-needed. 2007
+// (gain = forgetting x gain + k error)
 // Laura Marchal-Crespo, Sarah McHughen, Steven C. Cramer, David J. Reinkensmeyer. The effect of haptic guidance, aging,
 // and initial skill level on motor learning of a steering task. 2010
 #pragma once
@@ -37,10 +38,10 @@ struct TrialPlan {
   HintStyle hints = HintStyle::prescriptive;
 };
 
-// After each trial, guided or not, the guidance gain g becomes f g + k e, limited to 0 to 1. The error e is the error of
-// the trial's lever divided by `full_error`, at most 1: what the feet did wrong, the lever's force cannot mend. The factor k is `per_error`. The factor f falls from `forgetting` to
-// `forgetting_skilled` as skill grows. Two of every four trials are unguided, in an order drawn from the seed. The same
-// seed and errors always give the same plans.
+// After each trial, guided or not, the guidance gain g becomes f g + k e, limited to 0 to 1. The error e is the trial's
+// lever_error() divided by `full_error`, at most 1, because the lever's force cannot mend what the feet did wrong. The
+// factor k is `per_error`. The factor f falls from `forgetting` to `forgetting_skilled` as skill grows. Two of every
+// four trials are unguided, in an order drawn from the seed. The same seed and errors always give the same plans.
 class GuidancePolicy {
  public:
   explicit GuidancePolicy(std::uint64_t seed, const GuidanceConfig& config = {});

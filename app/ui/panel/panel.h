@@ -121,7 +121,7 @@ class Panel {
   // Replay: "replay_shift: INDEX", "replay_time", "replay_play", "replay_pace: 0.1" (0.25, 0.5, 1, 2),
   // "replay_whole", "replay_close".
   // Tuning, setup: "wall_stiffness_n_per_m" and the other keys, "slot_a", "slot_b", "undo", "redo", "reset",
-  // "use_stable", "keep_running", "restart", ...
+  // "use_stable", "keep_running", "restart", "revert", ...
   std::optional<ControlRect> control_rect(std::string_view name) const;
   int shortened_texts() const noexcept;
 

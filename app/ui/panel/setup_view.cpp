@@ -123,7 +123,7 @@ void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelC
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!changed);
-  if (controls.button("setup_back", "Revert")) running_.reset();
+  if (controls.button("revert", "Revert")) running_.reset();
   ImGui::EndDisabled();
   const bool allow_unstable = staged_.contact.allow_unstable;
   if (!changed && !allow_unstable) return;

@@ -212,7 +212,7 @@ TEST_CASE("settings that are fixed while the loop runs are collected, checked, a
   CHECK_NOTHROW(check_config(asked->config));
   rig.drag("clear_below_n", 0.1, 0.9);  // invalid, because `clear_below` now exceeds `warn_above`
   CHECK_FALSE(has<Restart>(rig.click("restart")));
-  rig.click("setup_back");
+  rig.click("revert");
   CHECK_FALSE(has<Restart>(rig.click("restart")));
 }
 
