@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/ui/panel/palette.h"
-#include "haptics/gate/gate_description.h"
 
 namespace gearshift::ui {
 namespace {
@@ -202,9 +201,8 @@ void draw_scales(const Canvas& c, ImVec2 low, ImVec2 size, double px_per_n) {
 
 }  // namespace
 
-void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::HapticSnapshot& now, const Trail& trail,
-                    double max_force, const ShownPaths& paths) {
-  const haptics::GateDescription description = haptics::describe_gate(gate);
+void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateDescription& description,
+                    const haptics::HapticSnapshot& now, const Trail& trail, double max_force, const ShownPaths& paths) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
   const float em = engine::ui_em(), foot = engine::ui_font_size(engine::UiFont::small) + 0.3f * em;

@@ -153,7 +153,8 @@ struct Panel::State {
   MessageNote note;
   bool message_fits = false;  // true if the status bar shows the whole message in this frame
   std::int64_t last_ns = -1;  // [ns] time of the newest snapshot of this run
-  std::uint64_t run = 0;
+  std::optional<std::uint64_t> run;
+  haptics::GateDescription viewed;  // description of viewed_gate()
   ControlRect cabin_area, central_area;
 
   void follow(const PanelInput& input);
@@ -181,6 +182,7 @@ void Panel::State::follow(const PanelInput& input) {
     plots.clear();
     clip = ClipMeter();
     last_ns = -1;
+    viewed = haptics::describe_gate(viewed_gate(input));
   }
   // `now` may be newer than the end of the history. If it were added as well, the snapshots in between, which arrive in
   // the next frame, would be ignored as too old.
@@ -199,7 +201,8 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
     const float gate_height = 0.38f * height;
     const double max = std::max(input.device.max_force.x, input.device.max_force.y);
     const haptics::Gate& gate = viewed_gate(input);
-    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, gate, input.now, trail, max, shown_paths(input));
+    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, gate, viewed, input.now, trail, max,
+                   shown_paths(input));
     plots.draw(controls, height - gate_height - spacing, gate, input.now, trail);
     clip.draw(controls, input.now, input.device);
   }

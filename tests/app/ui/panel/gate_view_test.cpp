@@ -34,8 +34,9 @@ struct DrawnGate {
   Trail trail;
 
   void draw() {
-    draw_in_window(ui, {640.0f, 480.0f},
-                   [this] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, trail, kMaxForce); });
+    draw_in_window(ui, {640.0f, 480.0f}, [this] {
+      draw_gate_view(ImGui::GetContentRegionAvail(), gate, describe_gate(gate), now, trail, kMaxForce);
+    });
   }
   glm::dvec2 disc_at(glm::dvec2 proxy) {  // [px] centre of the drawn lever
     now.proxy = now.lever = proxy;

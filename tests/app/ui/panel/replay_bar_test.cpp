@@ -231,8 +231,9 @@ TEST_CASE("in the gate the driven path is a solid line, and the ideal path is da
   const Gate gate = paper_gate();
   HapticSnapshot now;
   const auto draw = [&](const ShownPaths& paths) {
-    draw_in_window(ui, {640.0f, 480.0f},
-                   [&] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, Trail(), 75.0, paths); });
+    draw_in_window(ui, {640.0f, 480.0f}, [&] {
+      draw_gate_view(ImGui::GetContentRegionAvail(), gate, describe_gate(gate), now, Trail(), 75.0, paths);
+    });
   };
   draw({});
   CHECK(drawn_in(ui::ink::kDriven).empty());
