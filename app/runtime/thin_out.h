@@ -2,15 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "haptics/loop/haptic_snapshot.h"
+#include "app/vehicle/drive_sample.h"
 
 namespace gearshift::runtime {
 
-// Returns at most `max_count` of the snapshots, in order. A longer list is split into max_count / 2 equal parts, and
-// only the snapshots with the smallest and the largest hand force |f_h| of each part are returned. For max_count = 1,
-// only the snapshot with the largest force in the list is returned.
-std::vector<haptics::HapticSnapshot> thin_out(const std::vector<haptics::HapticSnapshot>& all, std::size_t max_count);
+// Replaces `few` by at most `max_count` snapshots of the cycles, in order. A longer list is split into max_count / 2
+// equal parts, and only the snapshots with the smallest and the largest hand force |f_h| of each part are kept. For
+// max_count = 1, only the snapshot with the largest force in the list is kept.
+void thin_out(std::span<const vehicle::DriveSample> cycles, std::size_t max_count,
+              std::vector<haptics::HapticSnapshot>& few);
 
 }  // namespace gearshift::runtime

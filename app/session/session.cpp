@@ -4,12 +4,14 @@
 #include <utility>
 
 #include "app/base/assets_path.h"
-#include "app/session/plot_samples.h"
+#include "app/runtime/thin_out.h"
 #include "app/session/preset_store.h"
 #include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift::session {
 namespace {
+
+constexpr std::size_t kPlotSamples = 200;  // largest number of snapshots of a frame that the plots draw
 
 // The car state that is displayed if there is no car; contains only pedals, gear and switches.
 vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int gear) {
@@ -100,14 +102,14 @@ void Session::advance(double seconds) {
 }
 
 // Judges the lesson, and takes lever, car and events for this frame's pictures and sounds.
-void Session::follow(const runtime::RuntimeFrame& frame) {
-  events_ = frame.events;
+void Session::follow(runtime::RuntimeFrame frame) {
+  events_ = std::move(frame.events);
   for (haptics::HapticEvent& event : events_) event.time_ns -= start_ns_;
   if (!frame.cycles.empty()) newest_controls_ = frame.cycles.back().controls;
   if (lever_.are_pedal_keys_held()) director_.coach().judge_by_errors();
   if (director_.add(frame.cycles)) end_lesson();
   if (const std::optional<std::string> problem = director_.coach().take_problem()) message_ = *problem;
-  history_ = plot_samples(frame.cycles);
+  runtime::thin_out(frame.cycles, kPlotSamples, history_);
   newest_ns_ = frame.lever.time_ns;
   shown_ = frame.lever;
   const runtime::RuntimeConfig& config = lever_.runtime().config();
@@ -163,7 +165,7 @@ void Session::show_replay(double seconds) {
   shown_.guard = guard;
   shown_.fault = fault;
   car_ = player.now().car;
-  history_ = plot_samples(player.passed());
+  runtime::thin_out(player.passed(), kPlotSamples, history_);
 }
 
 ui::PanelInput Session::panel_input() const {

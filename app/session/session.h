@@ -98,7 +98,7 @@ class Session {
                      cabin::Cabin cabin);
   const haptics::Gate& displayed_gate() const;
   void configure_sound(const vehicle::CarSpec& car);
-  void follow(const runtime::RuntimeFrame& frame);
+  void follow(runtime::RuntimeFrame frame);
   void report_sound();
   void finish_opening();
   void show_replay(double seconds);

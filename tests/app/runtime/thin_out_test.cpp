@@ -7,27 +7,33 @@
 
 using namespace gearshift::haptics;
 using namespace gearshift::runtime;
+using namespace gearshift::vehicle;
 
 namespace {
 
-std::vector<HapticSnapshot> pushes(const std::vector<double>& newtons) {
-  std::vector<HapticSnapshot> all;
+std::vector<DriveSample> pushes(const std::vector<double>& newtons) {
+  std::vector<DriveSample> all;
   for (const double push : newtons) {
-    HapticSnapshot snapshot;
-    snapshot.cycle = all.size();
-    snapshot.f_h.x = push;
-    all.push_back(snapshot);
+    DriveSample& sample = all.emplace_back();
+    sample.lever.cycle = all.size() - 1;
+    sample.lever.f_h.x = push;
   }
   return all;
+}
+
+std::vector<HapticSnapshot> thinned(const std::vector<DriveSample>& all, std::size_t max_count) {
+  std::vector<HapticSnapshot> few(3);  // replaced
+  thin_out(all, max_count, few);
+  return few;
 }
 
 }  // namespace
 
 TEST_CASE("data within the limit is kept completely") {
   const auto all = pushes({1, 2, 3});
-  CHECK(thin_out(all, 3).size() == 3);
-  CHECK(thin_out(all, 100).size() == 3);
-  CHECK(thin_out({}, 5).empty());
+  CHECK(thinned(all, 3).size() == 3);
+  CHECK(thinned(all, 100).size() == 3);
+  CHECK(thinned({}, 5).empty());
 }
 
 TEST_CASE("a single peak and a single gap survive any downsampling") {
@@ -39,7 +45,7 @@ TEST_CASE("a single peak and a single gap survive any downsampling") {
     newtons[peak] = -60.0;  // a push to the left is negative, but also a peak
     const auto all = pushes(newtons);
     const std::size_t limit = 2 + chance() % 100;
-    const auto few = thin_out(all, limit);
+    const auto few = thinned(all, limit);
     CHECK(few.size() <= limit);
     CHECK_FALSE(few.empty());
     bool has_peak = false, has_pause = peak == pause;
@@ -57,7 +63,7 @@ TEST_CASE("the intervals are even: neighbours are at most two intervals apart") 
   std::mt19937 chance(3);
   std::vector<double> newtons(10'000);
   for (double& push : newtons) push = static_cast<double>(chance() % 1000);
-  const auto few = thin_out(pushes(newtons), 200);
+  const auto few = thinned(pushes(newtons), 200);
   CHECK(few.size() == 200);
   // There are 100 intervals of 100 cycles with two points each, so neighbours are at most 200 cycles apart.
   for (std::size_t i = 1; i < few.size(); ++i) CHECK(few[i].cycle - few[i - 1].cycle <= 200);
@@ -65,7 +71,7 @@ TEST_CASE("the intervals are even: neighbours are at most two intervals apart") 
 
 TEST_CASE("one point keeps the strongest, zero keeps none") {
   const auto all = pushes({1, -7, 3});
-  REQUIRE(thin_out(all, 1).size() == 1);
-  CHECK(thin_out(all, 1)[0].cycle == 1);
-  CHECK(thin_out(all, 0).empty());
+  REQUIRE(thinned(all, 1).size() == 1);
+  CHECK(thinned(all, 1)[0].cycle == 1);
+  CHECK(thinned(all, 0).empty());
 }
