@@ -93,8 +93,7 @@ void record_sound(const DemoSetup& setup, std::span<const FilmFrame> film, const
   std::vector<float> part(2 * kFrames);
   for (const FilmFrame& frame : film) {
     stage.place({frame.lever, frame.car, frame.time});
-    for (const haptics::HapticEvent& event : frame.events) sound.on_event(event, stage.knob());
-    sound.update(frame.lever, frame.car, cabin::camera("driver"), stage.knob(), frame.time);
+    sound.update(frame.events, frame.lever, frame.car, cabin::camera("driver"), stage.knob(), frame.time);
     world.render(part);
     stereo.insert(stereo.end(), part.begin(), part.end());
     progress("sound", frame.time / film.back().time);

@@ -86,6 +86,11 @@ void Session::set_camera(std::string_view camera) {
   }
 }
 
+// The events of this frame, unless a replay is shown in place of the lever.
+std::span<const haptics::HapticEvent> Session::live_events() const {
+  return is_replaying() ? std::span<const haptics::HapticEvent>() : events_;
+}
+
 const haptics::Gate& Session::displayed_gate() const {
   return viewer_.player() != nullptr ? viewer_.player()->drive().gate() : lever_.runtime().gate();
 }
@@ -118,9 +123,9 @@ void Session::follow(runtime::RuntimeFrame frame) {
   car_ = config.car ? frame.car : standing_car(newest_controls_, shown_.gear);
 }
 
-void Session::update_cabin() {
+void Session::update_cabin(const engine::EyePose& ears, const std::optional<cabin::Beam>& pointer) {
   cabin::StageInput input{shown_, car_, time_};
-  input.pointer = pointer_;
+  input.pointer = pointer;
   if (const lessons::RecordedShift* shift = viewer_.shift()) {
     input.driven_path = shift->driven;
     input.ideal_path = shift->ideal;
@@ -128,9 +133,7 @@ void Session::update_cabin() {
   stage_->place(input);
   if (stage_->take_dial_change()) new_model_ = true;
   const glm::vec3 knob = stage_->knob();
-  if (viewer_.player() == nullptr)
-    for (const haptics::HapticEvent& event : events_) cabin_sound_.on_event(event, knob);
-  cabin_sound_.update(shown_, car_, ears_, knob, time_);
+  cabin_sound_.update(live_events(), shown_, car_, ears, knob, time_);
   report_sound();
 }
 
@@ -180,7 +183,7 @@ ui::PanelInput Session::panel_input() const {
           .now = shown_,
           .run = run_,
           .history = history_,
-          .events = viewer_.player() != nullptr ? std::span<const haptics::HapticEvent>() : events_,
+          .events = live_events(),
           .health = runtime.health(),
           .car = car_,
           .gate_name = running.gate,

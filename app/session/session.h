@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,15 +29,17 @@ class Session {
   // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with a one-sentence message.
   explicit Session(const SessionChoice& choice);
 
-  // Call lever().set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a
-  // frame. They do not throw: if a command is rejected, message() says why.
+  // A frame is advance(), with the hand and controls last set by lever().set_driver(), and update_cabin(); apply() may be
+  // called at any time. They do not throw: if a command is rejected, message() says why.
   LeverInForce& lever() { return lever_; }
   // Executes the commands in this order, except that STOP comes first and cancels any arming before it. A rejected
   // command does not stop those after it.
   void apply(const ui::PanelCommands& commands);
   void apply(const ui::PanelCommand& command) { apply(ui::PanelCommands{command}); }
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
-  void update_cabin();           // places the cabin's parts and updates the sound
+  // Places the cabin's parts and plays the sounds of the frame. `pointer`: the beam of the pointing hand, in cabin
+  // coordinates; empty: no beam
+  void update_cabin(const engine::EyePose& ears = {}, const std::optional<cabin::Beam>& pointer = {});
 
   // Replays a recorded drive: the shift with the index `shift` or, if `shift` is empty, the whole drive. `from` [s]:
   // start time in the recording. Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence
@@ -65,7 +68,6 @@ class Session {
   // history does not reference. Returns a sentence that says what could not be saved; empty if everything was saved.
   std::string save_and_stop();
   bool end_recording();  // returns false if the recording failed; message() describes the result
-  void set_ears(const engine::EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
   void set_message(const std::string& message) { message_ = message; }
   // `report`: the state of the headset; empty if no headset is open.
@@ -74,8 +76,6 @@ class Session {
   // limited to the gate, which adds to this distance. If the sum exceeds `ghost_offset`, the lever is flagged as past
   // the wall (kFlagGhost).
   void set_visual_offset(double offset) { visual_offset_ = offset; }
-  // `beam`: starts at the pointing hand, in cabin coordinates; empty: no beam
-  void set_pointer(const std::optional<cabin::Beam>& beam) { pointer_ = beam; }
   void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
   bool is_replaying() const { return viewer_.player() != nullptr; }
@@ -96,6 +96,7 @@ class Session {
   // Defined in session.cpp.
   void rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
                      cabin::Cabin cabin);
+  std::span<const haptics::HapticEvent> live_events() const;
   const haptics::Gate& displayed_gate() const;
   void configure_sound(const vehicle::CarSpec& car);
   void follow(runtime::RuntimeFrame frame);
@@ -142,9 +143,7 @@ class Session {
   haptics::YokeGeometry stage_yoke_;  // yoke for which the stage was built
   engine::SoundWorld sound_;
   cabin::CabinSound cabin_sound_;
-  engine::EyePose ears_;
   double visual_offset_ = 0.0;  // [m] see set_visual_offset()
-  std::optional<cabin::Beam> pointer_;
 
   haptics::DriverControls newest_controls_;
   haptics::HapticSnapshot shown_;

@@ -107,7 +107,7 @@ class WindowTrainer {
     print_session_message();
     draw_panel();
     look();
-    session_.update_cabin();
+    update_cabin();
     show();
   }
 
@@ -255,19 +255,15 @@ class WindowTrainer {
     return is_there ? pointer : std::nullopt;
   }
 
-  // Sets the listener and the pointing beam, and moves the desktop camera. While the headset is worn, only the head
-  // sets the view, so the camera does not move.
+  // Moves the desktop camera. While the headset is worn, only the head sets the view, so the camera does not move.
   void look() {
+    session_.set_visual_offset(is_worn() ? headset_->touch_error() : 0.0);
+    if (!is_worn() && look_.follow_shift(session_.is_replaying_shift())) session_.set_camera(look_.place());
+  }
+
+  void update_cabin() {
     const bool points = is_worn() && (pointer_ || !headset_->pointer());
-    session_.set_pointer(points ? headset_->beam() : std::nullopt);
-    if (is_worn()) {
-      session_.set_ears(headset_->head());
-      session_.set_visual_offset(headset_->touch_error());
-      return;
-    }
-    session_.set_visual_offset(0.0);
-    if (look_.follow_shift(session_.is_replaying_shift())) session_.set_camera(look_.place());
-    session_.set_ears(look_.pose());
+    session_.update_cabin(is_worn() ? headset_->head() : look_.pose(), points ? headset_->beam() : std::nullopt);
   }
 
   // Passes the user's input to the session. After a change of gate, car, hand or device, the hand starts at the lever's

@@ -64,8 +64,9 @@ void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
   }
 }
 
-void CabinSound::update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car,
-                        const engine::EyePose& ears, glm::vec3 knob, double time) {
+void CabinSound::update(std::span<const haptics::HapticEvent> events, const haptics::HapticSnapshot& lever,
+                        const vehicle::VehicleState& car, const engine::EyePose& ears, glm::vec3 knob, double time) {
+  for (const haptics::HapticEvent& event : events) on_event(event, knob);
   update_listener(ears);
   update_engine(car, time);
   car_.set(world_, car, config_.engine, config_.dog_teeth, {kEnginePlace, knob, kCluster}, time);

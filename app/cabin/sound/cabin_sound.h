@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include <glm/vec3.hpp>
 
@@ -32,12 +33,12 @@ class CabinSound {
   // The world must outlive this object.
   CabinSound(engine::SoundWorld& world, const CabinSoundConfig& config);
 
-  void on_event(const haptics::HapticEvent& event, glm::vec3 knob);  // call once for each event of the loop
-  // Call in each frame, after on_event(). Updates the sounds of engine (by speed and load), starter, judder, limiter
-  // and grind; plays a chime when the engine stalls; sounds warnings as long as over-push, saturation or over-rev
-  // lasts. Calls the world's update(time) at the end. Cabin coordinates: metres, +X right, +Y up, -Z ahead.
-  void update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car, const engine::EyePose& ears,
-              glm::vec3 knob, double time);
+  // Plays a frame. `events`: the loop's events since the last frame. Updates the sounds of engine (by speed and load),
+  // starter, judder, limiter and grind; plays a chime when the engine stalls; sounds warnings as long as over-push,
+  // saturation or over-rev lasts. Calls the world's update(time) at the end. Cabin coordinates: metres, +X right, +Y up,
+  // -Z ahead.
+  void update(std::span<const haptics::HapticEvent> events, const haptics::HapticSnapshot& lever,
+              const vehicle::VehicleState& car, const engine::EyePose& ears, glm::vec3 knob, double time);
   void set_config(const CabinSoundConfig& config);
   const CabinSoundConfig& config() const noexcept { return config_; }
 
@@ -47,6 +48,7 @@ class CabinSound {
     WarningHold hold;
   };
 
+  void on_event(const haptics::HapticEvent& event, glm::vec3 knob);
   const EngineVoices& engine_voices();
   void update_listener(const engine::EyePose& ears);
   void update_engine(const vehicle::VehicleState& car, double time);

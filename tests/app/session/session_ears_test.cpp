@@ -30,11 +30,10 @@ struct EarLevels {
 
 // The RMS level at each ear over one second, with the engine at idle.
 EarLevels engine_levels(Session& session, const EyePose& ears) {
-  session.set_ears(ears);
   std::vector<float> stereo;
   for (int i = 0; i < 70; ++i) {
     session.advance(kFrame);
-    session.update_cabin();
+    session.update_cabin(ears);
     const std::vector<float> some = listen(session.sound(), kFrame);
     if (i >= 10) stereo.insert(stereo.end(), some.begin(), some.end());
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "app/cabin/sound/cabin_sound.h"
@@ -30,15 +31,16 @@ struct Cabin {
   engine::EyePose ears = engine::look_at({0.0, 0.65, 0.0}, {0.0, 0.65, -1.0});
   glm::vec3 knob = kKnob;
   double time = 0.0;
+  std::vector<haptics::HapticEvent> events;  // of the next frame
 
   explicit Cabin(const cabin::CabinSoundConfig& config = {}) : sound(world, config) {}
 
-  void on_event(haptics::EventKind kind, double value = 0.0) { sound.on_event({kind, 0, 0, value}, knob); }
+  void on_event(haptics::EventKind kind, double value = 0.0) { events.push_back({kind, 0, 0, value}); }
 
   std::vector<float> run(double seconds) {
     std::vector<float> all;
     for (int frame = 0; frame < static_cast<int>(std::lround(seconds / kFrame)); ++frame) {
-      sound.update(lever, car, ears, knob, time);
+      sound.update(std::exchange(events, {}), lever, car, ears, knob, time);
       const std::vector<float> some = listen(world, kFrame);
       all.insert(all.end(), some.begin(), some.end());
       time += kFrame;
