@@ -105,13 +105,14 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
   return next;
 }
 
-void LeverInForce::hand_over(Next next) {
+void LeverInForce::hand_over(Next next, const SessionChoice* chosen) {
   const bool has_forces = wants_forces_after_hand_over();
   runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
   is_new_ = true;
   is_car_held_ = false;
   start_brake_ = next.switches && !runtime_->config().driver ? next.switches->brake : 0.0;
   running_ = std::move(next.choice);
+  if (chosen != nullptr) choice_ = *chosen;
   if (next.switches) switches_ = next.switches;
   if (switches_) {
     controls_.ignition = switches_->ignition;
@@ -194,14 +195,16 @@ void LeverInForce::stop() {
   runtime_->stop();
 }
 
-std::string LeverInForce::begin_frame() {
+std::string LeverInForce::begin_frame(const LessonControls& lesson) {
   has_just_armed_ = false;
   std::string news;
-  if (!choice_.stick) return news;
-  while (const std::optional<std::string> one = choice_.stick->take_message())
-    news += (news.empty() ? "" : "; ") + *one;
-  const bool was_there = std::exchange(is_stick_connected_, choice_.stick->connected());
-  if (was_there && !is_stick_connected_) runtime_->follow(runtime::ForceCause::stick_lost);
+  if (choice_.stick) {
+    while (const std::optional<std::string> one = choice_.stick->take_message())
+      news += (news.empty() ? "" : "; ") + *one;
+    const bool was_there = std::exchange(is_stick_connected_, choice_.stick->connected());
+    if (was_there && !is_stick_connected_) runtime_->follow(runtime::ForceCause::stick_lost);
+  }
+  send_controls(lesson);
   return news;
 }
 

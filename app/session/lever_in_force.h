@@ -49,17 +49,18 @@ class LeverInForce {
   // Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence message; nothing then changes.
   // `lesson`: null if the lever is for free driving.
   Next prepare(const SessionChoice& choice, const lessons::Lesson* lesson) const;
-  // Replaces the lever in force. The new one has forces as runtime::kForceRules says. If a stick's new lever cannot be
-  // made, the old one is made again, without forces, and this throws.
-  void hand_over(Next next);
+  // Replaces the lever in force. The new one has forces as runtime::kForceRules says. `chosen`: the user's choice from
+  // then on; null: unchanged, as for a lesson. If a stick's new lever cannot be made, the old one is made again, without
+  // forces, and this throws.
+  void hand_over(Next next, const SessionChoice* chosen = nullptr);
 
   // Switches forces on. Returns false if this is refused, because the stick is not plugged in.
   bool arm();
   void disarm();
   void stop();
-  // Call at the beginning of a frame. Ends the stick's forces when it is unplugged. Returns the stick's messages,
+  // Begins a frame: ends the stick's forces if it was unplugged, and sends the controls. Returns the stick's messages,
   // separated by "; "; may be empty.
-  std::string begin_frame();
+  std::string begin_frame(const LessonControls& lesson);
 
   // The user's hand at once, controls and pedal keys from the next send_controls() on. Each pedal is as far down as in
   // `controls` or as `keys` move it in the car's time, whichever is further down.
@@ -76,11 +77,10 @@ class LeverInForce {
   bool exists() const { return runtime_ != nullptr; }
   runtime::Runtime& runtime() { return *runtime_; }
   const runtime::Runtime& runtime() const { return *runtime_; }
-  // The user's choice, and the same with the names in use. The caller changes the user's choice once it is in force.
-  SessionChoice& choice() { return choice_; }
-  const SessionChoice& choice() const { return choice_; }
-  SessionChoice& running() { return running_; }
-  const SessionChoice& running() const { return running_; }
+  const SessionChoice& choice() const { return choice_; }                                // the user's
+  const SessionChoice& running() const { return running_; }                              // in use; names car and gate
+  void set_preset(const std::string& name) { choice_.preset = running_.preset = name; }  // saved under this name
+  void set_learner(const std::string& name) { choice_.learner = name; }
   bool is_stick_connected() const { return is_stick_connected_; }
   std::string describe_limit() const;  // first limit of the tuning, as a sentence; may be empty
 

@@ -97,8 +97,7 @@ const haptics::Gate& Session::displayed_gate() const {
 
 void Session::advance(double seconds) {
   time_ += seconds;
-  if (const std::string news = lever_.begin_frame(); !news.empty()) message_ = news;
-  lever_.send_controls(director_.controls());
+  if (const std::string news = lever_.begin_frame(director_.controls()); !news.empty()) message_ = news;
   if (lever_.running().clock == runtime::RuntimeClock::virtual_time) lever_.runtime().advance(seconds);
   if (const std::optional<std::string> problem = recorder_.poll_problem(lever_.runtime())) message_ = *problem;
   follow(lever_.runtime().read_frame());

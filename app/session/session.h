@@ -111,10 +111,11 @@ class Session {
   void change_choice(const SessionChoice& wanted, std::string_view reason);
   void offer_in_its_gate(const SessionChoice& choice, const lessons::Lesson& lesson);
   void add_message(const std::string& message);  // after the present one
-  // Replaces the lever. `reason`: reported if this ends a lesson. If the new lever is rejected, the old one keeps
-  // running unchanged; if a stick's new lever fails although it was accepted, the old one runs again, without forces.
+  // Replaces the lever. `reason`: reported if this ends a lesson. `chosen`: see LeverInForce::hand_over(). If the new
+  // lever is rejected, the old one keeps running unchanged; if a stick's new lever fails although it was accepted, the
+  // old one runs again, without forces.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
-                 std::string_view reason = "the loop was restarted");
+                 std::string_view reason = "the loop was restarted", const SessionChoice* chosen = nullptr);
   void show_lever_in_force();
   void close_current(std::string_view reason);
   void toggle_recording();

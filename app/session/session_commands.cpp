@@ -151,13 +151,13 @@ SessionChoice Session::current_choice() const {
 }
 
 void Session::change_choice(const SessionChoice& wanted, std::string_view reason) {
-  switch_to(wanted, nullptr, reason);
-  lever_.choice() = wanted;
+  switch_to(wanted, nullptr, reason, &wanted);
   // Only with the automatic hand, because another program may have renamed the learner.
   if (director_.view().learner.empty() != learner_of(wanted).empty()) director_.coach().set_learner(learner_of(wanted));
 }
 
-void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason) {
+void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason,
+                        const SessionChoice* chosen) {
   LeverInForce::Next next = lever_.prepare(choice, lesson);
   const haptics::YokeGeometry& yoke = next.config.preset.lever.yoke;
   if (!stage_ || stage_gate_ != next.gate_text || !same_geometry(stage_yoke_, yoke))
@@ -165,7 +165,7 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   message_.clear();
   close_current(reason);
   try {
-    lever_.hand_over(std::move(next));
+    lever_.hand_over(std::move(next), chosen);
   } catch (...) {
     if (lever_.exists()) show_lever_in_force();
     throw;
@@ -200,7 +200,7 @@ void Session::save_preset(const std::string& name) {
   haptics::Preset preset = lever_.runtime().config().preset;
   preset.name = name;
   haptics::write_preset(preset, file);
-  lever_.choice().preset = lever_.running().preset = name;
+  lever_.set_preset(name);
   panel_.presets = preset_names();
   message_ = fmt::format("preset saved as {}", file.string());
 }
@@ -231,11 +231,10 @@ void Session::end_lesson_recording() {
 
 // Selects the learner. If the name is invalid, throws before anything changes.
 void Session::change_learner(const std::string& name) {
-  SessionChoice& choice = lever_.choice();
-  const bool is_automatic = choice.hand == kAutomaticHand;
+  const bool is_automatic = lever_.choice().hand == kAutomaticHand;
   const std::string stored = is_automatic && !name.empty() ? lessons::checked_learner_name(name) : std::string();
   const bool has_ended_lesson = director_.set_learner(is_automatic ? std::string() : name);
-  choice.learner = is_automatic ? stored : director_.view().learner;
+  lever_.set_learner(is_automatic ? stored : director_.view().learner);
   message_.clear();
   if (is_automatic) message_ = "the simulated driver is driving, so nothing is saved";
   if (!has_ended_lesson) return;
@@ -245,7 +244,7 @@ void Session::change_learner(const std::string& name) {
 
 void Session::rename_learner(const std::string& name) {
   director_.coach().rename_learner(name);
-  lever_.choice().learner = director_.view().learner;
+  lever_.set_learner(director_.view().learner);
 }
 
 // Puts the report about the lesson's end in front of the current message, which may be about a recording or a limit.
