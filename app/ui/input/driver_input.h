@@ -73,7 +73,7 @@ class DriverInput {
   void recentre(glm::dvec2 lever);  // puts the hand at the lever, without a push
   void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
   void rebind(const Bindings& bindings);
-  // [m] lever point, and the engaged gear; call once per frame, before update()
+  // [m] where the lever is, and the engaged gear, until the next call
   void feel(glm::dvec2 lever, int engaged = haptics::kNeutralGear) noexcept { lever_ = lever, engaged_ = engaged; }
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
   void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake [1]: 0 to 1

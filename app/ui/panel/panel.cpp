@@ -315,7 +315,6 @@ PanelCommands Panel::draw(const PanelInput& input) {
   s.controls.begin_frame();
   update_keyboard_focus(kBarName, s.visible);
   s.follow(input);
-  s.tuning.follow(input);
   for (const TuningView::Step step : s.steps) s.tuning.apply_step(step, input, out);
   s.steps.clear();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;

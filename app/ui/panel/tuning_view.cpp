@@ -83,6 +83,7 @@ void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& inp
 }
 
 void TuningView::apply_step(Step step, const PanelInput& input, PanelCommands& out) {
+  follow(input);
   switch (step) {
     case Step::undo:
       if (!is_refused(input)) history_.undo();  // if the last edit was rejected, undo only discards that edit
@@ -101,6 +102,7 @@ void TuningView::apply_step(Step step, const PanelInput& input, PanelCommands& o
 }
 
 void TuningView::draw(Controls& controls, const PanelInput& input, PanelCommands& out) {
+  follow(input);
   draw_steps(controls, input, out);
   // All ranges stay unchanged while a slider is dragged, and are updated when it is released.
   ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());

@@ -17,11 +17,11 @@ class TuningView {
  public:
   enum class Step { undo, redo, reset, switch_slot };
 
-  void follow(const PanelInput& input);  // call first in each frame: the running values may have changed
   void apply_step(Step step, const PanelInput& input, PanelCommands& out);
   void draw(Controls& controls, const PanelInput& input, PanelCommands& out);
 
  private:
+  void follow(const PanelInput& input);  // the running values may have changed
   TuningQuestion question(const PanelInput& input, const haptics::HapticTuning& tuning) const;
   const TuningAnswer& judged(const PanelInput& input) { return judge_.judge(question(input, edited_)); }
   bool is_refused(const PanelInput& input) { return edited_ != running_ && !judged(input).admissible; }
