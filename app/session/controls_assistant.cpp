@@ -1,5 +1,6 @@
 #include "app/session/controls_assistant.h"
 
+#include <algorithm>
 #include <fstream>
 #include <utility>
 #include <variant>
@@ -65,15 +66,34 @@ ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::p
 
 void ControlsAssistant::update(const std::vector<engine::Controller>& controllers, double seconds) {
   controllers_ = ui::controllers_to_set_up(controllers);
-  problems_ = ui::describe_bound(driver_.bindings(), controllers);
-  unbound_.clear();
-  for (const engine::Controller* one : ui::unbound_controllers(driver_.bindings(), controllers))
-    if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
-  forget_replugged();
+  if (!is_described(controllers)) describe(controllers);
   if (!setup_) return;
   setup_->frame(controllers, seconds);
   const bool was_tried = std::exchange(is_tried_, setup_->is_over());
   if (is_tried_ && !was_tried) driver_.rebind(setup_->bindings());
+}
+
+bool ControlsAssistant::is_described(const std::vector<engine::Controller>& controllers) const {
+  const auto is_same = [](const engine::Controller& a, const engine::Controller& b) {
+    return a.name == b.name && a.id == b.id && a.guid == b.guid && a.can_be_read == b.can_be_read &&
+           a.gamepad.has_value() == b.gamepad.has_value() && a.axes.size() == b.axes.size() &&
+           a.buttons.size() == b.buttons.size();
+  };
+  return described_ && described_rebinds_ == driver_.rebinds() &&
+         std::equal(described_->begin(), described_->end(), controllers.begin(), controllers.end(), is_same);
+}
+
+void ControlsAssistant::describe(const std::vector<engine::Controller>& controllers) {
+  described_ = controllers;
+  described_rebinds_ = driver_.rebinds();
+  forget_replugged();
+  unbound_.clear();
+  for (const engine::Controller* one : ui::unbound_controllers(driver_.bindings(), controllers))
+    if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
+  sentences_ = ui::describe_bound(driver_.bindings(), controllers);
+  problems_ = sentences_.size();
+  for (std::string& sentence : ui::describe_unbound(driver_.bindings(), controllers, declined_))
+    sentences_.push_back(std::move(sentence));
 }
 
 // A controller that is plugged in while the program runs is offered, also if it was declined before.
@@ -88,6 +108,7 @@ void ControlsAssistant::forget_replugged() {
 // If the file cannot be written, the answer applies to this session.
 std::string ControlsAssistant::decline() {
   declined_.insert(unbound_.begin(), unbound_.end());
+  described_.reset();
   if (declined_file_.empty()) return {};
   std::set<std::string> names = read_names(declined_file_);
   names.insert(unbound_.begin(), unbound_.end());
@@ -170,8 +191,8 @@ ui::ControlsView ControlsAssistant::view(const haptics::Gate& gate, bool offers)
   if (setup_) return {&*setup_, controllers_, {}, {}};
   if (const auto missed = driver_.missed_gear())
     request_ = shift_request(*missed, gate, driver_.bindings(), controllers_);
-  else if (!problems_.empty())
-    request_ = problems_.front();
+  else if (problems_ > 0)
+    request_ = sentences_.front();
   return {nullptr, controllers_, offers_, request_};
 }
 

@@ -1,6 +1,8 @@
 // Offers to set up controllers that have no effect yet, and leads through the steps in the window.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -25,7 +27,9 @@ class ControlsAssistant {
   // stick.
   void update(const std::vector<engine::Controller>& controllers, double seconds);
   bool is_setting_up() const { return setup_.has_value(); }
-  const std::set<std::string>& declined() const { return declined_; }  // names of controllers that are not offered
+  // Sentences about controllers that do not work as bound, or have no effect yet. They change only if controllers come
+  // and go, or the bindings change.
+  const std::vector<std::string>& sentences() const { return sentences_; }
   // Call while setting up. Removes from the window's input what must not reach the driver: the controllers with which
   // the user answers, and Escape, which cancels, unless it has another use now (`uses_escape`). Returns a message for
   // the user; empty if there is none.
@@ -40,6 +44,8 @@ class ControlsAssistant {
   ui::ControlsView view(const haptics::Gate& gate, bool offers);
 
  private:
+  bool is_described(const std::vector<engine::Controller>& controllers) const;
+  void describe(const std::vector<engine::Controller>& controllers);
   void forget_replugged();
   std::string decline();
   std::string save();
@@ -53,10 +59,13 @@ class ControlsAssistant {
   ui::Bindings before_;    // bindings before the set-up
   bool is_tried_ = false;  // the driver uses the new bindings
   std::vector<engine::Controller> controllers_;
-  std::vector<std::string> unbound_;              // names of controllers without effect
-  std::vector<std::string> problems_;             // sentences about controllers that the bindings name
+  std::optional<std::vector<engine::Controller>> described_;  // controllers for which the members below were made
+  std::uint64_t described_rebinds_ = 0;                       // DriverInput::rebinds() then
+  std::vector<std::string> unbound_;                          // names of controllers without effect
+  std::vector<std::string> sentences_;                        // see sentences()
+  std::size_t problems_ = 0;                      // how many of them, at the front, are about bound controllers
   std::set<std::string> declined_;                // names of controllers that are not offered
-  std::optional<std::set<std::string>> present_;  // names of all controllers in the last frame
+  std::optional<std::set<std::string>> present_;  // names of all controllers that can be set up
   std::vector<std::string> offers_;
   std::string request_;
 };

@@ -18,7 +18,6 @@
 #include "app/session/panel_hand_pointer.h"
 #include "app/session/shared_input.h"
 #include "app/session/ui_scale.h"
-#include "app/ui/input/bound_controllers.h"
 #include "engine/gpu/instance.h"
 #include "engine/ui/ui.h"
 #include "haptics/files/printable.h"
@@ -205,9 +204,9 @@ class WindowTrainer {
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
     // The stick that is the lever may be listed, too, until the program has opened it.
-    std::vector<engine::Controller> controllers = polled.controllers;
-    std::erase_if(controllers, [this](const auto& one) { return one.id == setup_.stick_id; });
-    controls_.update(controllers, seconds_);
+    controllers_ = polled.controllers;
+    std::erase_if(controllers_, [this](const auto& one) { return one.id == setup_.stick_id; });
+    controls_.update(controllers_, seconds_);
     engine::WindowInput left;
     const bool is_setting_up = controls_.is_setting_up();
     if (is_setting_up) {
@@ -218,7 +217,7 @@ class WindowTrainer {
         is_setting_up ? left : polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_,
         pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
-    report_controllers(controllers);
+    report_controllers();
     update_key_labels();
     look_.turn(shared_.turned());
   }
@@ -236,15 +235,13 @@ class WindowTrainer {
   }
 
   // On the console; in the window, card and note show them.
-  void report_controllers(const std::vector<engine::Controller>& controllers) {
-    std::vector<std::string> sentences = ui::describe_bound(input_.bindings(), controllers);
-    for (std::string& sentence : ui::describe_unbound(input_.bindings(), controllers, controls_.declined()))
-      sentences.push_back(std::move(sentence));
-    for (const std::string& sentence : sentences) {
+  void report_controllers() {
+    if (controls_.sentences() == reported_) return;
+    for (const std::string& sentence : controls_.sentences()) {
       const bool is_known = std::find(reported_.begin(), reported_.end(), sentence) != reported_.end();
       if (!is_known) base::print_message("{}", haptics::printable(sentence));
     }
-    reported_ = std::move(sentences);
+    reported_ = controls_.sentences();
   }
 
   // Where the hand points at the panel; empty if it does not, or if this part of the panel has no controls.
@@ -422,7 +419,8 @@ class WindowTrainer {
   Clock::time_point next_view_{}, view_quiet_until_{}, next_labels_{};
   std::optional<runtime::LoopHealth> health_;  // health of the loop in the newest frame
   std::string printed_message_;
-  std::vector<std::string> reported_;  // sentences about the sticks of the last frame
+  std::vector<engine::Controller> controllers_;  // plugged in, without the stick that is the lever
+  std::vector<std::string> reported_;            // sentences about them that were printed
 };
 
 // True if the lesson or the replay has ended.

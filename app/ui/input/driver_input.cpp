@@ -348,6 +348,7 @@ void DriverInput::set_gate(const haptics::Gate& gate, const haptics::DeviceSpec&
 
 void DriverInput::rebind(const Bindings& bindings) {
   config_.bindings = bindings;
+  ++rebinds_;
   watch_ = {};
   shifters_.clear();
   is_stick_pulled_ = true;

@@ -28,6 +28,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -73,6 +74,7 @@ class DriverInput {
   void recentre(glm::dvec2 lever);  // puts the hand at the lever, without a push
   void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
   void rebind(const Bindings& bindings);
+  std::uint64_t rebinds() const noexcept { return rebinds_; }  // number of calls of rebind() so far
   // [m] where the lever is, and the engaged gear, until the next call
   void feel(glm::dvec2 lever, int engaged = haptics::kNeutralGear) noexcept { lever_ = lever, engaged_ = engaged; }
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
@@ -153,6 +155,7 @@ class DriverInput {
   bool has_pads_ = false;                     // in the last frame
   bool is_gear_of_shifter_ = false;           // the gear that gear_hand_ moves to
   bool was_clutch_down_ = false;
+  std::uint64_t rebinds_ = 0;
   double hand_brake_switch_ = 0.0;        // [1] as pressed by the action hand_brake or set by the lesson
   std::array<bool, 2> stick_controls_{};  // select, shift
 };

@@ -273,10 +273,23 @@ TEST_CASE("controllers that are declined are not offered at the next start, but 
   CHECK(later.offers().empty());
   // The console does not name them either.
   later.all.push_back(controller("New", {0.0f}));
-  const std::vector<std::string> sentences =
-      describe_unbound(shipped_bindings(), later.all, later.assistant.declined());
+  later.frame();
+  const std::vector<std::string>& sentences = later.assistant.sentences();
   REQUIRE(sentences.size() == 1);
   CHECK(sentences.front().starts_with("New was found."));
+  later.all.back().axes = {0.5f};  // an axis that moves changes nothing
+  later.frame();
+  CHECK(sentences.size() == 1);
+  Bindings bound = shipped_bindings();
+  bound.controllers = {{{"New", ""}, 0, {{Action::shift_up, {0}}}, {}}};
+  later.driver.rebind(bound);
+  later.frame();
+  REQUIRE(sentences.size() == 1);
+  CHECK(sentences.front().starts_with("New reports 0 buttons, so its button 0 has no effect."));
+  later.all.pop_back();
+  later.frame();
+  REQUIRE(sentences.size() == 1);
+  CHECK(sentences.front().starts_with("New is not plugged in"));
 }
 
 TEST_CASE("if the answer cannot be saved, it is said and holds for this session") {
