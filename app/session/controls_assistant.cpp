@@ -125,8 +125,11 @@ std::string ControlsAssistant::decline() {
 
 std::string ControlsAssistant::take(engine::WindowInput& input, bool uses_escape) {
   if (!setup_->is_over()) std::erase_if(input.controllers, ui::can_be_set_up);
-  const auto is_escape = [](const engine::KeyEvent& key) { return key.down && key.key == GLFW_KEY_ESCAPE; };
-  const bool cancels = !uses_escape && std::erase_if(input.keys, is_escape) > 0;
+  const auto is_escape = [](const engine::InputEvent& event) {
+    const auto* const key = std::get_if<engine::KeyEvent>(&event);
+    return key != nullptr && key->down && key->key == GLFW_KEY_ESCAPE;
+  };
+  const bool cancels = !uses_escape && std::erase_if(input.events, is_escape) > 0;
   return cancels ? cancel() : std::string();
 }
 

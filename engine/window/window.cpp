@@ -107,13 +107,11 @@ void Window::State::set_callbacks() {
   });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     if (action == GLFW_REPEAT) return;
-    const KeyEvent event{.key = key,
-                         .down = action == GLFW_PRESS,
-                         .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                         .control = (mods & GLFW_MOD_CONTROL) != 0,
-                         .alt = (mods & GLFW_MOD_ALT) != 0};
-    state_of(w)->input.keys.push_back(event);
-    state_of(w)->input.events.emplace_back(event);
+    state_of(w)->input.events.emplace_back(KeyEvent{.key = key,
+                                                    .down = action == GLFW_PRESS,
+                                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                                    .control = (mods & GLFW_MOD_CONTROL) != 0,
+                                                    .alt = (mods & GLFW_MOD_ALT) != 0});
   });
   glfwSetCharCallback(
       window, [](GLFWwindow* w, unsigned int c) { state_of(w)->input.events.emplace_back(static_cast<char32_t>(c)); });
@@ -163,7 +161,6 @@ const WindowInput& Window::poll() {
   if (!s.shown) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   s.input.mouse_moved = glm::dvec2(0.0);
   s.input.events.clear();
-  s.input.keys.clear();
   s.input.mouse_down = s.held;
   glfwPollEvents();
   for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];

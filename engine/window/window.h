@@ -51,7 +51,6 @@ struct WindowInput {
   glm::dvec2 mouse_moved{0.0};          // [px] since the last poll, also while captured
   std::array<bool, 5> mouse_down{};     // down now or at any time since the last poll: left, right, middle, ...
   std::vector<InputEvent> events;       // in order
-  std::vector<KeyEvent> keys;           // the key events of `events`
   std::vector<Controller> controllers;  // currently plugged in
   bool focused = true;
 };

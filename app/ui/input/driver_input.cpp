@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -91,10 +92,12 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
 // Applies the frame's key events. release() takes effect in the next update(), so a key that is pressed and released
 // between two frames is held for one frame.
 void DriverInput::update_keys(const engine::WindowInput& input, bool ui_has_keys) {
-  for (const engine::KeyEvent& key : input.keys) {
-    const Source source{kKeyboard, key.key};
-    if (key.down)
-      press(source, ui_has_keys, is_chord(key));
+  for (const engine::InputEvent& event : input.events) {
+    const auto* const key = std::get_if<engine::KeyEvent>(&event);
+    if (key == nullptr) continue;
+    const Source source{kKeyboard, key->key};
+    if (key->down)
+      press(source, ui_has_keys, is_chord(*key));
     else
       release(source);
   }

@@ -38,7 +38,8 @@ struct ControlsDesk {
     assistant.update(all, 0.01);
     WindowInput input;
     input.controllers = all;
-    input.keys = std::exchange(keys, {});
+    input.events.assign(keys.begin(), keys.end());
+    keys.clear();
     if (assistant.is_setting_up()) message = assistant.take(input, driver.mouse_moves_lever());
     driver.update(input, 0.01, false, false);
   }

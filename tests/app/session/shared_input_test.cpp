@@ -36,22 +36,20 @@ struct Desk {
   }
 
   const PanelCommands& frame() {
-    window.events.insert(window.events.begin(), window.keys.begin(), window.keys.end());
     shared.update(
         window, 1.0 / 60.0, [this](glm::dvec2 at) { return mouse ? *mouse : at; }, rig.panel, rig.ui);
     rig.ui.begin(rig.screen);
     rig.asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
     rig.ui.end();
     window.events.clear();
-    window.keys.clear();
     return rig.asked;
   }
   // Presses and releases a key, and returns all commands asked in these frames.
   PanelCommands key(int code, bool control = false) {
-    window.keys = {{code, true, false, control, false}};
+    window.events = {KeyEvent{code, true, false, control, false}};
     PanelCommands all = frame();
     PanelRig::merge(all, frame());
-    window.keys = {{code, false, false, control, false}};
+    window.events = {KeyEvent{code, false, false, control, false}};
     PanelRig::merge(all, frame());
     return all;
   }
@@ -115,14 +113,15 @@ TEST_CASE("a mouse button pressed on the panel is the panel's until it is releas
 TEST_CASE("with the shipped bindings Tab enters the panel, and its arrow keys do not move the lever") {
   Desk desk;
   desk.frame();
-  desk.window.keys = {{GLFW_KEY_TAB, true, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_TAB, true, false, false, false}};
   desk.frame();
   CHECK(desk.driver.pressed().empty());
-  desk.window.keys = {{GLFW_KEY_TAB, false, false, false, false}, {GLFW_KEY_RIGHT, true, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_TAB, false, false, false, false},
+                        KeyEvent{GLFW_KEY_RIGHT, true, false, false, false}};
   desk.frame();
   CHECK(desk.rig.panel.has_keyboard());
   for (int i = 0; i < 10; ++i) desk.frame();
-  desk.window.keys = {{GLFW_KEY_RIGHT, false, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_RIGHT, false, false, false, false}};
   desk.frame();
   desk.key(GLFW_KEY_UP);
   CHECK(desk.driver.hand().position == glm::dvec2(0.0));
@@ -130,7 +129,7 @@ TEST_CASE("with the shipped bindings Tab enters the panel, and its arrow keys do
   for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);  // leaves the panel
   CHECK_FALSE(desk.rig.panel.has_keyboard());
   CHECK_FALSE(desk.driver.mouse_moves_lever());
-  desk.window.keys = {{GLFW_KEY_RIGHT, true, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_RIGHT, true, false, false, false}};
   for (int i = 0; i < 10; ++i) desk.frame();
   CHECK(desk.driver.hand().position.x > 0.02);
 }
@@ -140,11 +139,12 @@ TEST_CASE("Ctrl+Tab cycles through the panel's parts, and Space presses the focu
   desk.frame();
   desk.key(GLFW_KEY_TAB);
   const auto walk = [&] {
-    desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, true, false, false, false}, {GLFW_KEY_TAB, true, false, true, false}};
+    desk.window.events = {KeyEvent{GLFW_KEY_LEFT_CONTROL, true, false, false, false},
+                          KeyEvent{GLFW_KEY_TAB, true, false, true, false}};
     desk.frame();
-    desk.window.keys = {{GLFW_KEY_TAB, false, false, true, false}};
+    desk.window.events = {KeyEvent{GLFW_KEY_TAB, false, false, true, false}};
     desk.frame();
-    desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, false, false, false, false}};
+    desk.window.events = {KeyEvent{GLFW_KEY_LEFT_CONTROL, false, false, false, false}};
     desk.frame();
     desk.frame();
   };
@@ -162,7 +162,7 @@ TEST_CASE("Ctrl+Tab cycles through the panel's parts, and Space presses the focu
 TEST_CASE("F2 shows and hides the panel; with Ctrl or Alt held only the keys for STOP work") {
   Desk desk;
   const auto pressed = [&](int key, bool control, bool alt) {
-    desk.window.keys = {{key, true, false, control, alt}, {key, false, false, control, alt}};
+    desk.window.events = {KeyEvent{key, true, false, control, alt}, KeyEvent{key, false, false, control, alt}};
     desk.frame();
     return desk.driver.pressed();
   };
@@ -176,18 +176,18 @@ TEST_CASE("F2 shows and hides the panel; with Ctrl or Alt held only the keys for
 
 TEST_CASE("Ctrl+click on a slider lets the user type a number, and its digits do not reach the driver") {
   Desk desk;
-  desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, true, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_LEFT_CONTROL, true, false, false, false}};
   desk.window.mouse = desk.middle("wall_damping_n_s_per_m");
   desk.frame();
   desk.window.mouse_down[0] = true;
   desk.frame();
   desk.window.mouse_down[0] = false;
   desk.frame();
-  desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, false, false, true, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_LEFT_CONTROL, false, false, true, false}};
   desk.frame();
   CHECK(desk.rig.panel.has_keyboard());
-  desk.window.events = {U'7'};
-  desk.window.keys = {{GLFW_KEY_7, true, false, false, false}, {GLFW_KEY_7, false, false, false, false}};
+  desk.window.events = {KeyEvent{GLFW_KEY_7, true, false, false, false},
+                        KeyEvent{GLFW_KEY_7, false, false, false, false}, U'7'};
   PanelCommands all = desk.frame();
   PanelRig::merge(all, desk.key(GLFW_KEY_ENTER));
   REQUIRE(has<ChangeTuning>(all));

@@ -49,11 +49,11 @@ struct Driver {
   gearshift::haptics::Pedals pedals;
   WindowInput input;
 
-  void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
+  void key(int code, bool down) { input.events.emplace_back(KeyEvent{code, down, false, false, false}); }
   void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
     driver.update(input, seconds, ui_has_mouse, ui_has_keys);
     pedals = feet.move(driver.pedal_keys(), seconds, 0.0, false);
-    input.keys.clear();
+    input.events.clear();
     input.mouse_moved = glm::dvec2(0.0);
   }
   void click() {
@@ -417,7 +417,7 @@ TEST_CASE("the brake key presses the brake and not the throttle") {
   custom.keys[Action::brake] = {GLFW_KEY_S};
   DriverInput driver({custom, {0.06, 0.05}});
   WindowInput input;
-  input.keys = {{GLFW_KEY_S, true, false, false, false}};
+  input.events = {KeyEvent{GLFW_KEY_S, true, false, false, false}};
   driver.update(input, 0.1, false, false);
   CHECK(driver.pedal_keys().brake);
   CHECK_FALSE(driver.pedal_keys().throttle);

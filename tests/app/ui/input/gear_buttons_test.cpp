@@ -89,7 +89,7 @@ class ShifterDesk {
     for (double time = 0.0; time < seconds; time += frame_time) {
       driver.feel(loop_.snapshot().lever, loop_.snapshot().gear);
       driver.update(input, frame_time, false, false);
-      input.keys.clear();
+      input.events.clear();
       target_.write(driver.hand());
       for (int i = 0; i < std::lround(1e3 * frame_time); ++i) {
         loop_.cycle(now_ += 1'000'000, 0);
@@ -205,7 +205,7 @@ TEST_CASE("the hand stops at every corner of its way, also where a frame is long
 
 TEST_CASE("a shifter that is in neutral from the start does not pull the lever back from where keys have moved it") {
   ShifterDesk desk(paper_gate());
-  desk.input.keys = {{GLFW_KEY_LEFT, true, false, false, false}};
+  desk.input.events = {KeyEvent{GLFW_KEY_LEFT, true, false, false, false}};
   desk.run(0.1);
   CHECK(desk.at().x < -0.003);  // keys move the lever, and the silent shifter does not pull it back
   desk.run(0.5);
@@ -245,7 +245,7 @@ TEST_CASE("a gear that the gate lacks or that is blocked is reported as missed; 
   desk.load.blocks = false;
   desk.run(0.5);
   CHECK(desk.gear() == kNeutralGear);
-  desk.input.keys = {{GLFW_KEY_A, true, false, false, false}};  // clutch
+  desk.input.events = {KeyEvent{GLFW_KEY_A, true, false, false, false}};  // clutch
   desk.run(1.0);
   CHECK(desk.gear() == 3);
   CHECK_FALSE(desk.driver.missed_gear());
@@ -335,7 +335,7 @@ Bindings axis_bindings(LeverMode mode) {
 
 WindowInput key(int code, bool down) {
   WindowInput input;
-  input.keys = {{code, down, false, false, false}};
+  input.events = {KeyEvent{code, down, false, false, false}};
   return input;
 }
 
@@ -354,14 +354,14 @@ TEST_CASE("a sequential gate: paddles shift one gear each; neutral and reverse n
   CHECK(desk.driver.missed_gear()->gear == kNeutralGear);
   CHECK(desk.push() < 1.0);  // the hand has given up, and the lever has sprung back
   CHECK(glm::length(desk.at()) < 0.003);
-  desk.input.keys = key(GLFW_KEY_A, true).keys;  // the clutch opens no lockout
+  desk.input.events = key(GLFW_KEY_A, true).events;  // the clutch opens no lockout
   desk.run(0.4);
   CHECK(desk.push() < 1.0);
   CHECK(glm::length(desk.at()) < 0.003);
-  desk.input.keys = key(GLFW_KEY_W, true).keys;
+  desk.input.events = key(GLFW_KEY_W, true).events;
   reached.clear();
   for (int i = 0; i < 3; ++i) press(5);
-  desk.input.keys = key(GLFW_KEY_W, false).keys;
+  desk.input.events = key(GLFW_KEY_W, false).events;
   for (int i = 0; i < 2; ++i) press(4);
   CHECK(reached == std::vector{kNeutralGear, kReverseGear, kReverseGear, kNeutralGear, 1});
   CHECK_FALSE(desk.driver.missed_gear());
@@ -456,11 +456,11 @@ TEST_CASE(
 
 TEST_CASE("a sequential gate: a lever that a key has pulled springs back when the key is released") {
   ShifterDesk desk(shipped_gate(kSequentialGate));
-  desk.input.keys = key(GLFW_KEY_DOWN, true).keys;
+  desk.input.events = key(GLFW_KEY_DOWN, true).events;
   desk.run(0.6);
   CHECK(desk.gear() == 1);
   CHECK(desk.at().y < -0.030);
-  desk.input.keys = key(GLFW_KEY_DOWN, false).keys;
+  desk.input.events = key(GLFW_KEY_DOWN, false).events;
   desk.run(0.6);
   CHECK(glm::length(desk.at()) < 0.003);
   CHECK(desk.push() < 1.0);
