@@ -121,7 +121,6 @@ struct LessonRun::State {
   std::vector<HeldCondition> ahead;  // conditions of the steps that can be reached by skipping
   std::vector<HeldCondition> abort_held;
   const Norm* norm;  // of `lesson`; may be null
-  JerkFilter jerk;
   LessonView view;
   LessonResult result;
   std::vector<ShiftRecord> new_shifts;
@@ -184,20 +183,18 @@ void LessonRun::State::measure(const vehicle::DriveSample& sample) {
   result.duration = sample.time() - result.begin;
   result.slip_energy = sample.car.slip_energy - start_slip;
   result.guided = result.guided || sample.controls.guidance > 0.0;
-  measure_jerk(sample);
   highest = std::max(highest, sample.car.distance);
 
   const std::optional<ShiftRecord> ended = meter.add(sample);
+  measure_jerk(sample);
   detector.add(sample, gear_wanted(sample.car.gear), meter.is_open(), speed_wanted(sample.car.gear));
   add_shift(ended);
   apply_errors(detector.drain_errors());
 }
 
 void LessonRun::State::measure_jerk(const vehicle::DriveSample& sample) {
-  const double dt = std::clamp(sample.time() - last.time(), 0.0, vehicle::kMaxSampleInterval);
-  const double now = std::abs(jerk.update(sample.car.acceleration, dt));
   double& peak = result.figures.jerk_peak ? *result.figures.jerk_peak : result.figures.jerk_peak.emplace(0.0);
-  if (sample.car.pedals.brake < kMaxBrakeForJerk) peak = std::max(peak, now);
+  if (sample.car.pedals.brake < kMaxBrakeForJerk) peak = std::max(peak, std::abs(meter.jerk()));
 }
 
 void LessonRun::State::add_shift(const std::optional<ShiftRecord>& ended) {

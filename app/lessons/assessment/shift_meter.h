@@ -36,6 +36,7 @@ class ShiftMeter {
   bool is_open() const noexcept { return stage_ == Stage::open; }  // a shift has begun and not ended
   // a shift has ended; its record is not returned yet
   bool is_pending() const noexcept { return stage_ == Stage::settling; }
+  double jerk() const noexcept { return filter_.jerk(); }  // [m/s^3] in the newest cycle, filtered
 
  private:
   enum class Stage { idle, open, settling };
