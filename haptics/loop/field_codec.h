@@ -8,8 +8,10 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
+#include "haptics/files/fnv_1a.h"
 #include "haptics/loop/trace_fields.h"
 
 namespace gearshift::haptics {
@@ -39,6 +41,26 @@ constexpr std::size_t encoded_size() {
   };
   count(count, value);
   return bytes;
+}
+
+// One number for the names, types and order of all fields of these structs.
+template <class... Structs>
+constexpr std::uint64_t fields_hash() {
+  std::uint64_t hash = fnv_1a("");
+  const auto add = [&hash](const auto& self, std::string_view name, const auto& member) -> void {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    hash = fnv_1a(name, hash);
+    if constexpr (LeafField<Member>) {
+      constexpr bool kIsBool = std::is_same_v<Member, bool>, kIsSigned = std::is_signed_v<Member>;
+      constexpr char kKind = std::is_enum_v<Member> ? 'e' : kIsBool ? 'b' : kIsSigned ? 's' : 'u';
+      constexpr char kType[] = {std::is_floating_point_v<Member> ? 'f' : kKind, '0' + sizeof(Member)};
+      hash = fnv_1a({kType, 2}, hash);
+    } else {
+      each_field(member, [&self](const char* field, const auto& inner) { self(self, field, inner); });
+    }
+  };
+  (add(add, "", Structs{}), ...);
+  return hash;
 }
 
 // Writes fields one after another into a buffer, which must be large enough.

@@ -4,8 +4,8 @@
 //   each_field(value, visit)   calls visit("name", member) for every member, in file order
 //
 // Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. A struct
-// with a table of parameters has that table as its list. If a list or the type of a member changes, raise
-// kTraceVersion: trace_format.h does not compile if a size changes, but nothing detects a change of order.
+// with a table of parameters has that table as its list. If a name, a type or the order changes, trace_format.h no longer
+// compiles.
 #pragma once
 
 #include <concepts>
@@ -52,16 +52,18 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("simulated", simulated);
 }
 
+// The first parameter of [loop], the other sections, and the rest of [loop].
 constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
-  auto& [rate, tuning, contact, estimator, guard, over_push, gear_debounce, ghost_offset] = config;
-  visit("rate", rate);
-  visit("tuning", tuning);
-  visit("contact", contact);
-  visit("estimator", estimator);
-  visit("guard", guard);
-  visit("over_push", over_push);
-  visit("gear_debounce", gear_debounce);
-  visit("ghost_offset", ghost_offset);
+  const auto visit_loop = [&](bool first) {
+    each_parameter(config, [&](const auto& parameter, auto& value) {
+      if ((&parameter == kParameters<HapticConfig>) == first) visit(parameter.name, value);
+    });
+  };
+  visit_loop(true);
+  each_section(config, [&](const char* section, auto& part) {
+    if constexpr (!FieldsOf<std::remove_reference_t<decltype(part)>, HapticConfig>) visit(section, part);
+  });
+  visit_loop(false);
 }
 
 constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {

@@ -40,8 +40,9 @@ struct TraceHeader {
 // Size of an encoded sample [bytes]; the last kOutputBytes of a sample are its outputs.
 inline constexpr std::size_t kSampleBytes = encoded_size<TraceSample>();
 inline constexpr std::size_t kOutputBytes = encoded_size<HapticSnapshot>();
-static_assert(kSampleBytes == 392 && encoded_size<HapticConfig>() + encoded_size<DeviceSpec>() == 314,
-              "the format of traces has changed: raise kTraceVersion, then put the new sizes here");
+inline constexpr std::uint64_t kFieldsHash = fields_hash<TraceSample, HapticConfig, DeviceSpec>();
+static_assert(kFieldsHash == 6596994105473238030u,
+              "the fields of a trace have changed: raise kTraceVersion, then put the hash that g++ shows here");
 inline constexpr std::size_t kSamplesPerBlock = 256;
 using EncodedSample = std::array<std::byte, kSampleBytes>;
 EncodedSample encode_sample(const TraceSample& sample) noexcept;

@@ -26,6 +26,21 @@ bool same_bits(glm::dvec2 a, glm::dvec2 b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y);
 }
 
+// Two fields. change: 0 none, 1 another name, 2 another order, 3 another type, 4 a third field.
+template <int change>
+struct ChangedFields {
+  std::conditional_t<change == 3, std::uint64_t, double> a{};
+  double b = 0.0;
+  bool c = false;
+};
+template <int change>
+constexpr void each_field(const ChangedFields<change>& fields, auto&& visit) {
+  if (change == 2) visit("b", fields.b);
+  visit("a", fields.a);
+  if (change != 2) visit(change == 1 ? "d" : "b", fields.b);
+  if (change == 4) visit("c", fields.c);
+}
+
 // Compares every member explicitly, without the field lists that define the file format.
 bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
   const haptics::LeverReading &r = a.reading, &q = b.reading;
@@ -139,6 +154,36 @@ TEST_CASE("trace: a sample is little-endian, inputs first, outputs last") {
   CHECK(haptics::kSampleBytes - haptics::kOutputBytes ==
         8 + 8 + (8 + 8 + 6 * 8 + 3) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
   CHECK(haptics::kOutputBytes == 8 + 8 + 10 * 16 + 2 * 8 + 4 + 4 + 1 + 1 + 4);
+}
+
+TEST_CASE("trace: another name, order, type or number of fields gives another hash of the fields") {
+  const std::set<std::uint64_t> hashes{
+      haptics::fields_hash<ChangedFields<0>>(), haptics::fields_hash<ChangedFields<1>>(),
+      haptics::fields_hash<ChangedFields<2>>(), haptics::fields_hash<ChangedFields<3>>(),
+      haptics::fields_hash<ChangedFields<4>>(), haptics::fields_hash<ChangedFields<0>, ChangedFields<0>>()};
+  CHECK(hashes.size() == 6);
+}
+
+TEST_CASE("trace: the parameters are in the order of version 8") {
+  haptics::HapticConfig config;
+  config.rate = 1.0;
+  config.tuning.wall_stiffness = 2.0;
+  config.over_push.clear_below = 3.0;
+  config.gear_debounce = 4.0;
+  config.ghost_offset = 5.0;
+  std::array<std::byte, haptics::encoded_size<haptics::HapticConfig>()> bytes;
+  haptics::FieldWriter(bytes.data()).put(config);
+  const auto number_at = [&](std::size_t offset) {
+    double number = 0.0;
+    std::memcpy(&number, bytes.data() + offset, sizeof number);
+    return number;
+  };
+  CHECK(number_at(0) == 1.0);
+  CHECK(number_at(8) == 2.0);
+  CHECK(number_at(bytes.size() - 24) == 3.0);
+  CHECK(number_at(bytes.size() - 16) == 4.0);
+  CHECK(number_at(bytes.size() - 8) == 5.0);
+  CHECK(bytes.size() == 8 + 6 * 8 + 4 + (2 * 8 + 4) + (6 * 8 + 4) + 2 * 8 + 2 * 8);
 }
 
 TEST_CASE("trace: the hash of a run changes with every output and every parameter, not with the inputs") {
