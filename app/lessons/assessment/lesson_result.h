@@ -9,6 +9,7 @@
 
 #include "app/lessons/assessment/driving_error.h"
 #include "app/lessons/assessment/shift_record.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::lessons {
 
@@ -54,13 +55,31 @@ struct RunFigures {
   std::optional<double> impulse;            // [N s] geometric mean over the shifts
 };
 
+// A figure that norms compare. Less is better in every figure.
+struct RunFigure {
+  std::optional<double> RunFigures::*member;  // null: LessonResult::slip_energy
+  const char* name;                           // in files of norms; of a member also its column, see RecordField
+  std::string_view label;                     // for people
+  std::string_view unit;
+  double scale = 1.0;  // shown value per stored value
+  int decimals = 0;
+  double floor = 0.0;  // smaller values count as this one, because they are below what a person could tell
+};
+inline constexpr double kMinImpulse = 0.01;  // [N s]
+inline constexpr RunFigure kRunFigures[] = {
+    {nullptr, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
+    {&RunFigures::jerk_peak, "jerk_peak_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
+    {&RunFigures::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
+     1.0 / haptics::kTurnPerMinute, 0, 1.0},
+    {&RunFigures::clutch_lead_error, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
+    {&RunFigures::clutch_lag_error, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
+    {&RunFigures::path_efficiency, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
+    {&RunFigures::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, kMinImpulse},
+};
+
 constexpr void each_field(FieldsOf<RunFigures> auto&& figures, auto&& visit) {
-  visit(RecordField{"jerk_peak_m_per_s3"}, figures.jerk_peak);
-  visit(RecordField{"rev_error_rad_per_s"}, figures.rev_error);
-  visit(RecordField{"clutch_lead_error_s"}, figures.clutch_lead_error);
-  visit(RecordField{"clutch_lag_error_s"}, figures.clutch_lag_error);
-  visit(RecordField{"path_efficiency"}, figures.path_efficiency);
-  visit(RecordField{"impulse_n_s"}, figures.impulse);
+  for (const RunFigure& figure : kRunFigures)
+    if (figure.member != nullptr) visit(RecordField{figure.name}, figures.*figure.member);
 }
 
 struct LessonResult {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "haptics/files/parameter.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 #include "haptics/files/toml_text.h"
@@ -16,30 +15,8 @@ namespace {
 
 constexpr double kNineteenOfTwenty = 1.645;  // [1] standard deviations: 95 % of a normal distribution lie below
 
-struct FigureDescription {
-  RunFigure figure;
-  std::string_view key;    // in the file of norms
-  std::string_view label;  // for people
-  std::string_view unit;
-  double scale = 1.0;  // shown value per stored value
-  int decimals = 0;
-  double floor = 0.0;  // smaller values count as this one, because they are below what a person could tell
-};
-
-// In the order of RunFigure.
-constexpr std::array<FigureDescription, kFigureCount> kFigures{{
-    {RunFigure::clutch_heat, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
-    {RunFigure::jerk, "jerk_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
-    {RunFigure::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
-     1.0 / haptics::kTurnPerMinute, 0, 1.0},
-    {RunFigure::clutch_lead, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
-    {RunFigure::clutch_lag, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
-    {RunFigure::path, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
-    {RunFigure::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, 0.01},
-}};
-
-const FigureDescription& figure_description(RunFigure figure) noexcept {
-  return kFigures[static_cast<std::size_t>(figure)];
+const std::optional<FigureNorm>& values_of(const Norm& norm, const RunFigure& figure) noexcept {
+  return norm.figures[static_cast<std::size_t>(&figure - kRunFigures)];
 }
 
 constexpr haptics::Range kPositive{0.0, 1e9}, kTime{-10.0, 10.0}, kSpread{1.0, 100.0};
@@ -59,11 +36,10 @@ Norm read_norm(const haptics::TomlTable& table) {
   norm.clutch_lead = table.number("clutch_lead_s", kTime);
   norm.clutch_lag = table.number("clutch_lag_s", kTime);
   norm.limit = table.number("limit", {1e-3, kMaxDeviation});
-  for (const FigureDescription& figure : kFigures) {
-    if (!table.has(figure.key)) continue;
-    const haptics::TomlTable values = table.table(figure.key);
-    norm.figures[static_cast<std::size_t>(figure.figure)] =
-        FigureNorm{values.number("typical", {1e-9, 1e9}), values.number("spread", kSpread)};
+  for (std::size_t i = 0; i < kFigureCount; ++i) {
+    if (!table.has(kRunFigures[i].name)) continue;
+    const haptics::TomlTable values = table.table(kRunFigures[i].name);
+    norm.figures[i] = FigureNorm{values.number("typical", {1e-9, 1e9}), values.number("spread", kSpread)};
     values.reject_unknown_keys();
   }
   table.reject_unknown_keys();
@@ -71,16 +47,15 @@ Norm read_norm(const haptics::TomlTable& table) {
 }
 
 // Standard deviations by which the figure is worse than typical [1], 0 to kMaxDeviation.
-double deviation(const LessonResult& result, RunFigure figure, const FigureNorm& norm) noexcept {
+double deviation(const LessonResult& result, const RunFigure& figure, const FigureNorm& norm) noexcept {
   const std::optional<double> value = figure_of(result, figure);
   if (!value) return kMaxDeviation;
-  const double ratio = std::max(*value, figure_description(figure).floor) / norm.typical;
+  const double ratio = std::max(*value, figure.floor) / norm.typical;
   return std::clamp(std::log(ratio) / std::log(norm.spread), 0.0, kMaxDeviation);
 }
 
-std::string format_figure(RunFigure figure, double value) {
-  const FigureDescription& shown = figure_description(figure);
-  return fmt::format("{:.{}f}{}", shown.scale * value, shown.decimals, shown.unit);
+std::string format_figure(const RunFigure& figure, double value) {
+  return fmt::format("{:.{}f}{}", figure.scale * value, figure.decimals, figure.unit);
 }
 
 // The value that 19 of 20 practised drivers stay below.
@@ -135,10 +110,10 @@ std::string norms_text(std::span<const Norm> norms) {
         haptics::toml_string(norm.lesson), haptics::toml_string(to_string(norm.mode)), haptics::toml_string(norm.car),
         haptics::toml_number(norm.path_length), haptics::toml_number(norm.clutch_lead),
         haptics::toml_number(norm.clutch_lag), haptics::toml_number(norm.limit));
-    for (const FigureDescription& figure : kFigures) {
-      const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
+    for (const RunFigure& figure : kRunFigures) {
+      const std::optional<FigureNorm>& values = values_of(norm, figure);
       if (!values) continue;
-      text += fmt::format("{} = {{ typical = {}, spread = {} }}\n", figure.key, haptics::toml_number(values->typical),
+      text += fmt::format("{} = {{ typical = {}, spread = {} }}\n", figure.name, haptics::toml_number(values->typical),
                           haptics::toml_number(values->spread));
     }
   }
@@ -149,7 +124,7 @@ void measure_figures(LessonResult& result, const Norm* norm) {
   Mean rev, lead, lag, path, impulse;
   for (const ShiftRecord& shift : result.shifts) {
     path.add(std::log(shift.path_efficiency));
-    impulse.add(std::log(std::max(shift.impulse, figure_description(RunFigure::impulse).floor)));
+    impulse.add(std::log(std::max(shift.impulse, kMinImpulse)));
     if (shift.missed || shift.to == haptics::kNeutralGear) continue;
     rev.add(shift.rev_error * shift.rev_error);
     if (shift.clutch_time <= 0.0 || norm == nullptr) continue;
@@ -164,37 +139,20 @@ void measure_figures(LessonResult& result, const Norm* norm) {
   figures.impulse = exp_of(impulse.value());
 }
 
-std::optional<double> figure_of(const LessonResult& result, RunFigure figure) noexcept {
-  const RunFigures& figures = result.figures;
-  switch (figure) {
-    case RunFigure::clutch_heat:
-      return result.slip_energy;
-    case RunFigure::jerk:
-      return figures.jerk_peak;
-    case RunFigure::rev_error:
-      return figures.rev_error;
-    case RunFigure::clutch_lead:
-      return figures.clutch_lead_error;
-    case RunFigure::clutch_lag:
-      return figures.clutch_lag_error;
-    case RunFigure::path:
-      return figures.path_efficiency;
-    case RunFigure::impulse:
-      return figures.impulse;
-  }
-  return std::nullopt;
+std::optional<double> figure_of(const LessonResult& result, const RunFigure& figure) noexcept {
+  return figure.member == nullptr ? result.slip_energy : result.figures.*figure.member;
 }
 
-double figure_logarithm(RunFigure figure, double value) noexcept {
-  return std::log(std::max(value, figure_description(figure).floor));
+double figure_logarithm(const RunFigure& figure, double value) noexcept {
+  return std::log(std::max(value, figure.floor));
 }
 
 double distance(const LessonResult& result, const Norm& norm) noexcept {
   Mean squares;
-  for (const FigureDescription& figure : kFigures) {
-    const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
+  for (const RunFigure& figure : kRunFigures) {
+    const std::optional<FigureNorm>& values = values_of(norm, figure);
     if (!values) continue;
-    const double by = deviation(result, figure.figure, *values);
+    const double by = deviation(result, figure, *values);
     squares.add(by * by);
   }
   return std::sqrt(squares.value().value_or(0.0));
@@ -202,14 +160,12 @@ double distance(const LessonResult& result, const Norm& norm) noexcept {
 
 std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm) {
   std::vector<FigureLine> lines;
-  for (const FigureDescription& figure : kFigures) {
-    const std::optional<double> value = figure_of(result, figure.figure);
+  for (const RunFigure& figure : kRunFigures) {
+    const std::optional<double> value = figure_of(result, figure);
     if (!value) continue;
-    FigureLine line{figure.label, format_figure(figure.figure, *value), {}};
-    const std::optional<FigureNorm> values =
-        norm != nullptr ? norm->figures[static_cast<std::size_t>(figure.figure)] : std::nullopt;
-    if (values) {
-      line.norm = "up to " + format_figure(figure.figure, upper_value(*values));
+    FigureLine line{figure.label, format_figure(figure, *value), {}};
+    if (const auto values = norm != nullptr ? values_of(*norm, figure) : std::nullopt) {
+      line.norm = "up to " + format_figure(figure, upper_value(*values));
       line.is_worse = *value > upper_value(*values);
     }
     lines.push_back(std::move(line));
@@ -218,18 +174,18 @@ std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* nor
 }
 
 std::string worst_figure_sentence(const LessonResult& result, const Norm& norm) {
-  const FigureDescription* worst = nullptr;
+  const RunFigure* worst = nullptr;
   double most = -1.0;
-  for (const FigureDescription& figure : kFigures) {
-    const std::optional<FigureNorm>& values = norm.figures[static_cast<std::size_t>(figure.figure)];
-    if (!values || !figure_of(result, figure.figure)) continue;
-    const double by = deviation(result, figure.figure, *values);
+  for (const RunFigure& figure : kRunFigures) {
+    const std::optional<FigureNorm>& values = values_of(norm, figure);
+    if (!values || !figure_of(result, figure)) continue;
+    const double by = deviation(result, figure, *values);
     if (by > most) worst = &figure, most = by;
   }
   if (worst == nullptr) return "You did not use the clutch as practised drivers do.";
   return fmt::format("Not yet as smooth as practised drivers. Farthest off: {}, {} (norm: up to {}).", worst->label,
-                     format_figure(worst->figure, *figure_of(result, worst->figure)),
-                     format_figure(worst->figure, upper_value(*norm.figures[static_cast<std::size_t>(worst->figure)])));
+                     format_figure(*worst, *figure_of(result, *worst)),
+                     format_figure(*worst, upper_value(*values_of(norm, *worst))));
 }
 
 }  // namespace gearshift::lessons

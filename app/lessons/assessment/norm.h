@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,9 +18,7 @@
 
 namespace gearshift::lessons {
 
-// Less is better in every figure. RunFigures describes each of them.
-enum class RunFigure { clutch_heat, jerk, rev_error, clutch_lead, clutch_lag, path, impulse };
-inline constexpr std::size_t kFigureCount = 7;
+inline constexpr std::size_t kFigureCount = std::size(kRunFigures);
 
 // The logarithm of a figure of practised drivers is normally distributed.
 struct FigureNorm {
@@ -34,8 +33,9 @@ struct Norm {
   double path_length = 0.0;  // [m] shortest path of the lever through the lesson's gears; differs between gates
   double clutch_lead = 0.0;  // [s] mean ShiftRecord::clutch_lead of practised drivers
   double clutch_lag = 0.0;   // [s] mean ShiftRecord::clutch_lag
-  std::array<std::optional<FigureNorm>, kFigureCount> figures{};  // empty: not every practised run has the figure
-  double limit = 1.0;                                             // [1] largest distance() that passes
+  std::array<std::optional<FigureNorm>, kFigureCount>
+      figures{};       // of kRunFigures; empty: not every practised run has it
+  double limit = 1.0;  // [1] largest distance() that passes
 };
 
 // Reads a file of norms. Throws FileError.
@@ -48,8 +48,9 @@ double rounded_for_norm(double value);                // to the four digits that
 // not compared and stay empty.
 void measure_figures(LessonResult& result, const Norm* norm);
 
-double figure_logarithm(RunFigure figure, double value) noexcept;  // of the value, or of the smallest that counts
-std::optional<double> figure_of(const LessonResult& result, RunFigure figure) noexcept;
+double figure_logarithm(const RunFigure& figure,
+                        double value) noexcept;  // of the value, or of the smallest that counts
+std::optional<double> figure_of(const LessonResult& result, const RunFigure& figure) noexcept;
 
 // Root mean square over the norm's figures of how many standard deviations each is worse than typical: 0 to kMaxDeviation.
 // A better figure counts as 0, a missing one as kMaxDeviation. Only practised drivers make a norm, so it needs no

@@ -61,7 +61,7 @@ double mean_time(std::span<const LessonResult> results, double ShiftRecord::*tim
 }
 
 // Empty if a run lacks the figure.
-std::optional<FigureNorm> figure_norm(std::span<const LessonResult> results, RunFigure figure) {
+std::optional<FigureNorm> figure_norm(std::span<const LessonResult> results, const RunFigure& figure) {
   double sum = 0.0, squares = 0.0;
   for (const LessonResult& result : results) {
     const std::optional<double> value = figure_of(result, figure);
@@ -128,7 +128,7 @@ Norm derive_norm(const LessonDriveConfig& drive, LessonMode mode) {
   norm.clutch_lead = rounded_for_norm(mean_time(results, &ShiftRecord::clutch_lead));
   norm.clutch_lag = rounded_for_norm(mean_time(results, &ShiftRecord::clutch_lag));
   for (LessonResult& result : results) measure_figures(result, &norm);
-  for (std::size_t i = 0; i < kFigureCount; ++i) norm.figures[i] = figure_norm(results, static_cast<RunFigure>(i));
+  for (std::size_t i = 0; i < kFigureCount; ++i) norm.figures[i] = figure_norm(results, kRunFigures[i]);
   std::vector<double> distances;
   for (LessonResult& result : practised(kLimitSeed)) {
     measure_figures(result, &norm);

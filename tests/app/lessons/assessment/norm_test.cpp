@@ -56,18 +56,18 @@ TEST_CASE("figures of a run by hand: root mean squares of times and revs, geomet
   norm.clutch_lead = 0.1;
   norm.clutch_lag = 0.3;
   measure_figures(result, &norm);
-  CHECK(*figure_of(result, RunFigure::clutch_heat) == 500.0);
-  CHECK(*figure_of(result, RunFigure::jerk) == 20.0);
-  CHECK(*figure_of(result, RunFigure::rev_error) == doctest::Approx(std::sqrt(12.5)));
-  CHECK(*figure_of(result, RunFigure::clutch_lead) == doctest::Approx(std::sqrt(0.00125)));
-  CHECK(*figure_of(result, RunFigure::clutch_lag) == doctest::Approx(0.0));
-  CHECK(*figure_of(result, RunFigure::path) == doctest::Approx(1.2));     // cube root of 1.44 * 1.2
-  CHECK(*figure_of(result, RunFigure::impulse) == doctest::Approx(4.0));  // cube root of 64
+  CHECK(*figure_of(result, kRunFigures[0]) == 500.0);
+  CHECK(*figure_of(result, kRunFigures[1]) == 20.0);
+  CHECK(*result.figures.rev_error == doctest::Approx(std::sqrt(12.5)));
+  CHECK(*result.figures.clutch_lead_error == doctest::Approx(std::sqrt(0.00125)));
+  CHECK(*result.figures.clutch_lag_error == doctest::Approx(0.0));
+  CHECK(*result.figures.path_efficiency == doctest::Approx(1.2));  // cube root of 1.44 * 1.2
+  CHECK(*result.figures.impulse == doctest::Approx(4.0));          // cube root of 64
   measure_figures(result, nullptr);
-  CHECK_FALSE(figure_of(result, RunFigure::clutch_lead));
+  CHECK_FALSE(result.figures.clutch_lead_error);
   result.shifts.clear();
   measure_figures(result, &norm);
-  CHECK_FALSE(figure_of(result, RunFigure::path));
+  CHECK_FALSE(result.figures.path_efficiency);
 }
 
 TEST_CASE(
