@@ -50,7 +50,6 @@ class GuidancePolicy {
   TrialPlan retention() const noexcept;  // plan of a retention test: unguided, feedback only at the end
   // `error`, `of_lever`: run_error() and lever_error() of the trial just driven
   void learn(double error, double of_lever) noexcept;
-  void learn(double error) noexcept { learn(error, error); }  // all of the error was the lever's
 
   double gain() const noexcept { return gain_; }    // [1]
   double skill() const noexcept { return skill_; }  // [1] running mean of one minus the trial error

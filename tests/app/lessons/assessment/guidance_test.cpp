@@ -20,7 +20,7 @@ TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill g
     const double f = config.forgetting * (1.0 - skill) + config.forgetting_skilled * skill;
     g = std::clamp(f * g + config.per_error * e, 0.0, 1.0);
     skill = config.skill_memory * skill + (1.0 - config.skill_memory) * (1.0 - e);
-    policy.learn(error);
+    policy.learn(error, error);
     CHECK(policy.gain() == doctest::Approx(g).epsilon(1e-12));
     CHECK(policy.skill() == doctest::Approx(skill).epsilon(1e-12));
   }
@@ -30,7 +30,7 @@ TEST_CASE("without errors guidance fades: the gain is the product of all f") {
   GuidanceConfig config;
   config.skill_memory = 1.0;  // the skill stays 0, so the fade factor f is constant
   GuidancePolicy policy(1, config);
-  for (int n = 0; n < 20; ++n) policy.learn(0.0);
+  for (int n = 0; n < 20; ++n) policy.learn(0.0, 0.0);
   CHECK(policy.gain() == doctest::Approx(std::pow(config.forgetting, 20)).epsilon(1e-12));
 }
 
@@ -38,9 +38,9 @@ TEST_CASE("a constant error e keeps the gain at k e / (1 - f), and an error beyo
   GuidanceConfig config;
   config.skill_memory = 1.0;
   GuidancePolicy policy(1, config);
-  for (int n = 0; n < 400; ++n) policy.learn(0.1);
+  for (int n = 0; n < 400; ++n) policy.learn(0.1, 0.1);
   CHECK(policy.gain() == doctest::Approx(config.per_error * 0.25 / (1.0 - config.forgetting)).epsilon(1e-9));
-  for (int n = 0; n < 400; ++n) policy.learn(0.4);
+  for (int n = 0; n < 400; ++n) policy.learn(0.4, 0.4);
   CHECK(policy.gain() == 1.0);
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("the lever's guidance fades though the feet fail, and hints stay as lo
 
 TEST_CASE("guidance fades faster for a skilled learner") {
   GuidancePolicy skilled(1), novice(1);
-  for (int n = 0; n < 10; ++n) skilled.learn(0.02), novice.learn(0.35);
+  for (int n = 0; n < 10; ++n) skilled.learn(0.02, 0.02), novice.learn(0.35, 0.35);
   CHECK(skilled.skill() > 0.8);
   CHECK(novice.skill() < 0.2);
   CHECK(skilled.gain() < 0.1);
@@ -66,7 +66,7 @@ TEST_CASE("two of every four trials are unguided, in an order that depends on th
     GuidancePolicy policy(seed);
     int guided = 0;
     for (int n = 1; n <= 400; ++n) {
-      policy.learn(1.0);
+      policy.learn(1.0, 1.0);
       guided += policy.next().guidance > 0.0 ? 1 : 0;
       if (n % 4 == 0) CHECK(guided == n / 2);
     }
@@ -88,7 +88,7 @@ TEST_CASE("with one lost point per trial, half of the trials stay guided for lon
       guided = 0;
       for (int n = 0; n < trials; ++n) {
         guided += policy.next().guidance > 0.0 ? 1 : 0;
-        policy.learn(error);
+        policy.learn(error, error);
       }
     };
     drive(24, 0.1);
@@ -105,7 +105,7 @@ TEST_CASE("equal seeds and errors give equal plans, different seeds different pl
     std::vector<double> list;
     for (int n = 0; n < 40; ++n) {
       list.push_back(policy.next().guidance);
-      policy.learn(0.5);
+      policy.learn(0.5, 0.5);
     }
     return list;
   };
@@ -120,7 +120,7 @@ TEST_CASE("a guided trial has the gain, an unguided one none, and a tiny gain co
     const TrialPlan plan = policy.next();
     if (plan.guidance != 0.0) CHECK(plan.guidance == gain);
     if (plan.guidance != 0.0) CHECK(gain >= GuidanceConfig().min_gain);
-    policy.learn(0.0);
+    policy.learn(0.0, 0.0);
   }
   CHECK(policy.gain() < GuidanceConfig().min_gain);
   for (int n = 0; n < 8; ++n) CHECK(policy.next().guidance == 0.0);
@@ -137,7 +137,7 @@ TEST_CASE("hints change from prescriptive to bandwidth to summary as skill grows
   std::vector<HintStyle> styles{policy.next().hints};
   const auto go_on = [&](double error) {
     for (int n = 0; n < 12; ++n) {
-      policy.learn(error);
+      policy.learn(error, error);
       const HintStyle style = policy.next().hints;
       if (style != styles.back()) styles.push_back(style);
     }
@@ -150,12 +150,12 @@ TEST_CASE("hints change from prescriptive to bandwidth to summary as skill grows
 
 TEST_CASE("invalid errors do not change the policy, and errors are clamped to 1") {
   GuidancePolicy policy(3);
-  policy.learn(std::numeric_limits<double>::quiet_NaN());
-  policy.learn(-1.0);
+  policy.learn(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
+  policy.learn(-1.0, -1.0);
   CHECK(policy.gain() == GuidanceConfig().start);
   GuidancePolicy one(3), many(3);
-  one.learn(1.0);
-  many.learn(50.0);
+  one.learn(1.0, 1.0);
+  many.learn(50.0, 50.0);
   CHECK(one.gain() == many.gain());
   CHECK(one.skill() == many.skill());
 }
