@@ -162,7 +162,7 @@ void add_device_options(CLI::App& verb, ContactArguments& arguments) {
       "a calibrated stick, in place of the preset's device: part of its name, VENDOR:PRODUCT, serial number "
       "or port");
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]; default: the preset's")
-      ->check(number_between(100.0, 4000.0));
+      ->check(within_range_of(&haptics::HapticConfig::rate));
   verb.add_option("--delay", arguments.delay, "delay until a command takes effect [cycles]; default: the device's")
       ->check(whole_number(0, haptics::kMaxSimulatedDelay));
   verb.add_option("--jitter", arguments.jitter, "largest relative error of each period, in the contacts with a hand")
@@ -176,9 +176,9 @@ void add_device_options(CLI::App& verb, ContactArguments& arguments) {
 
 void add_wall_options(CLI::App& verb, ContactArguments& arguments) {
   verb.add_option("--wall-stiffness", arguments.wall_stiffness, "wanted stiffness [N/m]; default: the preset's")
-      ->check(number_between(1.0, 20000.0));
+      ->check(number_between(1.0, haptics::parameter_of(&haptics::HapticTuning::wall_stiffness).range.max));
   verb.add_option("--wall-damping", arguments.wall_damping, "wanted damping [N s/m]; default: the preset's")
-      ->check(number_between(0.0, 100.0));
+      ->check(within_range_of(&haptics::HapticTuning::wall_damping));
   verb.add_option("--hold", arguments.hold, "automatic, zero_order, half_sample or observer; default: the preset's")
       ->check(CLI::IsMember(haptics::file_keys<haptics::ContactHold>()));
 }

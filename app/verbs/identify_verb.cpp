@@ -80,7 +80,7 @@ void add_identify_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({"x", "y", "both"}))
       ->capture_default_str();
   verb->add_option("--rate", arguments->rate, "cycle rate [Hz]; default: the preset's")
-      ->check(number_between(100.0, 4000.0));
+      ->check(within_range_of(&haptics::HapticConfig::rate));
   verb->add_option("--seed", arguments->seed,
                    "seed of the sensor noise and of the lever's model errors; default: the preset's")
       ->check(whole_number());

@@ -145,9 +145,12 @@ void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
   verb.add_option("--axis", arguments.axis, "use the mass, damping and stiffness of this axis of the paper's device")
       ->check(CLI::IsMember({"x", "y"}))
       ->capture_default_str();
-  verb.add_option("--mass", arguments.mass, "mass of the handle [kg]")->check(number_between(1e-3, 1e3));
-  verb.add_option("--damping", arguments.damping, "damping of the handle [N s/m]")->check(number_between(0.0, 1e4));
-  verb.add_option("--stiffness", arguments.stiffness, "stiffness of the handle [N/m]")->check(number_between(0.0, 1e6));
+  verb.add_option("--mass", arguments.mass, "mass of the handle [kg]")
+      ->check(within_range_of(&haptics::AxisModel::mass));
+  verb.add_option("--damping", arguments.damping, "damping of the handle [N s/m]")
+      ->check(within_range_of(&haptics::AxisModel::damping));
+  verb.add_option("--stiffness", arguments.stiffness, "stiffness of the handle [N/m]")
+      ->check(within_range_of(&haptics::AxisModel::stiffness));
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]")
       ->check(number_between(50.0, 20000.0))
       ->capture_default_str();

@@ -70,7 +70,7 @@ void add_tour_options(CLI::App& verb, TourArguments& arguments) {
                   "simulated hand: light, grip or arm; or its mass, damping and stiffness as M,B,K [kg, N s/m, N/m]; "
                   "default: the preset's hand, or grip if the preset's is too soft to move the lever");
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]; default: the preset's")
-      ->check(number_between(100.0, 4000.0));
+      ->check(within_range_of(&haptics::HapticConfig::rate));
   verb.add_option("--seed", arguments.seed, "seed of the random errors in the hand's aim")
       ->check(whole_number())
       ->capture_default_str();

@@ -54,11 +54,12 @@ void read_lever_text(const TomlTable& table, SimulatedLeverConfig& lever) {
     table.fail("encoder_counts_per_deg", "must be 0 (no encoder) or at least 1");
   if (!table.has("hand")) return;
   const std::optional<HandImpedance> hand = parse_hand(table.text("hand"));
+  const auto max = [](double HandImpedance::*member) { return number_text(parameter_of(member).range.max); };
   if (!hand || !is_in_range(*hand))
     table.fail("hand",
-               "must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 "
-               "N/m, followed "
-               "by the fingers' mass and the grip's damping and stiffness for an elastic hand");
+               "must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to " + max(&HandImpedance::mass) +
+                   " kg, " + max(&HandImpedance::damping) + " N s/m and " + max(&HandImpedance::stiffness) +
+                   " N/m, followed by the fingers' mass and the grip's damping and stiffness for an elastic hand");
   lever.hand = *hand;
 }
 

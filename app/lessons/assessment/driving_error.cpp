@@ -10,6 +10,7 @@
 #include "app/lessons/assessment/lever_path_text.h"
 #include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
+#include "haptics/loop/haptic_config.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -40,6 +41,8 @@ struct ErrorDescription {
 };
 
 using E = DrivingError;
+
+constexpr haptics::OverPushConfig kOverPush{};
 
 // The columns of a rule are `raise`, `clear`, `grave` and `severity`. Rows are in the order of ErrorKind. All thresholds
 // are engineering values that still have to be checked with people, unless the row gives a source.
@@ -98,10 +101,9 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::wrong_column, "wrong_column", &E::wrong_slots, kWhole, ErrorRule{1.0, 0.0, 3.0, Severity::minor},
      "enter the wrong slot", "The lever entered {} wrong slots.",
      "Pass through neutral, and let the springs guide the lever."},
-    // 60 N and 50 N are the limits of HapticConfig at which an over-push begins and ends.
-    {ErrorKind::over_push, "over_push", &E::force, kWhole, ErrorRule{60.0, 50.0, 100.0, Severity::minor},
-     "push the lever too hard", "You pushed the lever too hard ({} N).",
-     "Push lightly, and wait until the gear goes in."},
+    {ErrorKind::over_push, "over_push", &E::force, kWhole,
+     ErrorRule{kOverPush.warn_above, kOverPush.clear_below, 100.0, Severity::minor}, "push the lever too hard",
+     "You pushed the lever too hard ({} N).", "Push lightly, and wait until the gear goes in."},
     {ErrorKind::step_order, "step_order", &E::steps_out_of_place, kWhole, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
      "shift out of order", "You did the steps of the shift in the wrong order ({} out of place).",
      "The order is: off the throttle, clutch down, move the lever, clutch up, throttle."},

@@ -287,7 +287,11 @@ TEST_CASE("invalid values are refused with line, key, value and range") {
   CHECK(refusal("[lever]\nseed = -1\n").find("my.toml:3: seed = -1: must be between 0 and ") == 0);
   CHECK(refusal("[lever]\nencoder_counts_per_deg = 0.5\n") ==
         "my.toml:3: encoder_counts_per_deg = 0.5: must be 0 (no encoder) or at least 1");
-  CHECK(refusal("[lever]\nhand = \"fist\"\n").find("my.toml:3: hand = \"fist\": must be bare, light") == 0);
+  CHECK(
+      refusal("[lever]\nhand = \"fist\"\n")
+          .find(
+              "my.toml:3: hand = \"fist\": must be bare, light, grip, arm, elastic, pinch or \"M,B,K\" up to 1000 kg, "
+              "10000 N s/m and 1000000 N/m, followed by the fingers'") == 0);
   CHECK(refusal("[lever]\nhand = \"2000,1,1\"\n").find("my.toml:3: hand = \"2000,1,1\": must be") == 0);
   CHECK(refusal("[lever]\nmodel_error = 0.6\n") == "my.toml:3: model_error = 0.6: must be between 0 and 0.5");
   CHECK(refusal("[lever]\npeak_force_n = 5\n") ==
