@@ -92,7 +92,7 @@ struct BodySpec {
   double hand_brake_force = 4500.0;   // [N] brake force with the lever fully up
 };
 
-// How keys move the car's pedals, see KeyboardPedals in car_load.h. Times are > 0.
+// How keys move the car's pedals, see KeyboardPedals in car_load.h.
 struct PedalTiming {
   double pedal_time = 0.25;  // [s] time for the full pedal travel
   double slip_time = 1.2;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
@@ -222,6 +222,15 @@ inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpe
      "Linkage from knob to sleeve."},
 };
 static_assert(DescribesAll<vehicle::SynchroSpec>);
+
+// In files of bindings.
+template <>
+inline constexpr Parameter<vehicle::PedalTiming> kParameters<vehicle::PedalTiming>[] = {
+    {&vehicle::PedalTiming::pedal_time, "pedal_time", "pedal_key_s", FileRange{0.01, 5.0}, "Full travel of a pedal."},
+    {&vehicle::PedalTiming::slip_time, "slip_time", "clutch_key_slip_s", FileRange{0.01, 10.0},
+     "The clutch pedal, from the bite point to the full capacity."},
+};
+static_assert(DescribesAll<vehicle::PedalTiming>);
 
 template <>
 inline constexpr Parameter<vehicle::BodySpec> kParameters<vehicle::BodySpec>[] = {

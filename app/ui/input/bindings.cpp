@@ -11,6 +11,7 @@
 
 #include "app/ui/input/bound_controllers.h"
 #include "app/ui/input/key_names.h"
+#include "haptics/files/parameter_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
@@ -173,27 +174,12 @@ void read_buttons(const haptics::TomlTable& root, Bindings& bindings) {
   }
 }
 
-void read_lever(const haptics::TomlTable& root, Bindings& bindings) {
-  if (!root.has("lever")) return;
-  const haptics::TomlTable lever = root.table("lever");
-  if (lever.has("mode")) {
-    const std::string mode = lever.choice("mode", {std::begin(kLeverModes), std::end(kLeverModes)});
-    bindings.lever_mode =
-        static_cast<LeverMode>(std::find(std::begin(kLeverModes), std::end(kLeverModes), mode) - kLeverModes);
-  }
-  bindings.stick_speed = lever.number_or("full_speed_m_per_s", bindings.stick_speed, {0.01, 2.0});
-  lever.reject_unknown_keys();
-}
-
-void read_pace(const haptics::TomlTable& root, Bindings& bindings) {
-  if (!root.has("pace")) return;
-  const haptics::TomlTable pace = root.table("pace");
-  bindings.mouse_mm_per_px = pace.number_or("mouse_mm_per_px", bindings.mouse_mm_per_px, {0.005, 5.0});
-  bindings.key_speed = pace.number_or("lever_key_m_per_s", bindings.key_speed, {0.01, 2.0});
-  vehicle::PedalTiming& pedals = bindings.pedal_timing;
-  pedals.pedal_time = pace.number_or("pedal_key_s", pedals.pedal_time, {0.01, 5.0});
-  pedals.slip_time = pace.number_or("clutch_key_slip_s", pedals.slip_time, {0.01, 10.0});
-  pace.reject_unknown_keys();
+// parts: the structs that the section sets.
+void read_section(const haptics::TomlTable& root, const char* section, auto&... parts) {
+  if (!root.has(section)) return;
+  const haptics::TomlTable table = root.table(section);
+  (haptics::read_parameters(table, parts), ...);
+  table.reject_unknown_keys();
 }
 
 std::string joined(const std::vector<int>& codes, const std::function<std::string(int)>& name) {
@@ -233,8 +219,8 @@ Bindings read_bindings(const std::filesystem::path& file) {
   }
   read_buttons(root, bindings);
   read_axes(root, bindings);
-  read_lever(root, bindings);
-  read_pace(root, bindings);
+  read_section(root, "lever", bindings.lever);
+  read_section(root, "pace", bindings.pace, bindings.pedal_timing);
   root.reject_unknown_keys();
   if (!bindings.keys.contains(Action::stop))
     root.fail({}, "[keys] has no key for stop; set one, so that you can always turn forces off");
@@ -299,7 +285,7 @@ std::string help_text(const Bindings& bindings, const std::vector<engine::Contro
            gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
   }
   for (const AxisInfo& info : kAxes) {
-    const bool shifts = info.axis == &Bindings::lever_shift && bindings.lever_mode == LeverMode::steps;
+    const bool shifts = info.axis == &Bindings::lever_shift && bindings.lever.mode == LeverMode::steps;
     if (const auto& axis = bindings.*info.axis)
       line(axis_label(*axis, pad_id), shifts ? "back: one gear up, forward: one gear down" : info.help);
   }

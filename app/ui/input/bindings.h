@@ -63,7 +63,13 @@ enum class LeverMode {
   places,  // for levers that stay in place when released: deflection sets the hand's position
   steps    // for sequential levers that spring back: each pull shifts one gear up, each push one gear down
 };
-inline constexpr std::string_view kLeverModes[] = {"moves", "places", "steps"};  // in the file
+constexpr const char* file_key(LeverMode mode) noexcept {
+  constexpr const char* kKeys[] = {"moves", "places", "steps"};
+  return kKeys[static_cast<std::size_t>(mode)];
+}
+constexpr LeverMode last_value(LeverMode) noexcept {
+  return LeverMode::steps;
+}
 
 // "gear_reverse", "gear_neutral", "gear_1", ...
 std::string gear_key(int gear);
@@ -77,15 +83,25 @@ struct ControllerButtons {
   std::map<int, std::vector<int>> gears{};
 };
 
+// How sticks move the hand.
+struct StickMotion {
+  LeverMode mode = LeverMode::moves;
+  double speed = 0.3;  // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
+};
+
+// How fast mouse and keys move the hand.
+struct HandPace {
+  double mouse_mm_per_px = 0.12;  // [mm] hand motion in the lever plane per mouse pixel
+  double key_speed = 0.25;        // [m/s] hand speed while a lever key is held
+};
+
 struct Bindings {
   std::map<Action, std::vector<int>> keys;         // GLFW_KEY_...
   std::map<Action, std::vector<int>> pad_buttons;  // GLFW_GAMEPAD_BUTTON_... of any game pad
   std::vector<ControllerButtons> controllers;
   std::optional<AxisBinding> clutch, brake, throttle, hand_brake, lever_select, lever_shift;
-  LeverMode lever_mode = LeverMode::moves;
-  double stick_speed = 0.3;           // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
-  double mouse_mm_per_px = 0.12;      // [mm] hand motion in the lever plane per mouse pixel
-  double key_speed = 0.25;            // [m/s] hand speed while a lever key is held
+  StickMotion lever;
+  HandPace pace;
   vehicle::PedalTiming pedal_timing;  // of the pedals that keys press
 };
 
@@ -168,3 +184,24 @@ struct DrivingKey {
 std::vector<DrivingKey> driving_keys(const Bindings& bindings);
 
 }  // namespace gearshift::ui
+
+namespace gearshift::haptics {
+
+template <>
+inline constexpr Parameter<ui::StickMotion, ui::LeverMode> kParameters<ui::StickMotion>[] = {
+    {&ui::StickMotion::mode, "mode", "mode", FileRange{}, "How the axes of a stick move the hand."},
+    {&ui::StickMotion::speed, "speed", "full_speed_m_per_s", FileRange{0.01, 2.0},
+     "Speed of the hand at full deflection."},
+};
+static_assert(DescribesAll<ui::StickMotion>);
+
+template <>
+inline constexpr Parameter<ui::HandPace> kParameters<ui::HandPace>[] = {
+    {&ui::HandPace::mouse_mm_per_px, "mouse_mm_per_px", "mouse_mm_per_px", FileRange{0.005, 5.0},
+     "Motion of the hand per pixel of the mouse."},
+    {&ui::HandPace::key_speed, "key_speed", "lever_key_m_per_s", FileRange{0.01, 2.0},
+     "Speed of the hand while a key moves it."},
+};
+static_assert(DescribesAll<ui::HandPace>);
+
+}  // namespace gearshift::haptics

@@ -5,6 +5,7 @@
 
 #include "app/ui/input/bindings.h"
 #include "app/ui/input/key_names.h"
+#include "haptics/files/parameter_file.h"
 #include "haptics/files/printable.h"
 #include "haptics/files/toml_text.h"
 #include "haptics/files/verified_file.h"
@@ -64,13 +65,8 @@ std::string bindings_text(const Bindings& bindings) {
             actions_text(controller.actions, number);
     for (const auto& [gear, buttons] : controller.gears) text += line(gear_key(gear), list_text(buttons, number));
   }
-  text += "\n[lever]\n" +
-          line("mode", fmt::format("\"{}\"", kLeverModes[static_cast<std::size_t>(bindings.lever_mode)])) +
-          line("full_speed_m_per_s", haptics::toml_number(bindings.stick_speed));
-  return text + "\n[pace]\n" + line("mouse_mm_per_px", haptics::toml_number(bindings.mouse_mm_per_px)) +
-         line("lever_key_m_per_s", haptics::toml_number(bindings.key_speed)) +
-         line("pedal_key_s", haptics::toml_number(bindings.pedal_timing.pedal_time)) +
-         line("clutch_key_slip_s", haptics::toml_number(bindings.pedal_timing.slip_time));
+  return text + "\n[lever]\n" + haptics::parameters_text(bindings.lever, false) + "\n[pace]\n" +
+         haptics::parameters_text(bindings.pace, false) + haptics::parameters_text(bindings.pedal_timing, false);
 }
 
 void write_bindings(const Bindings& bindings, const fs::path& file) {

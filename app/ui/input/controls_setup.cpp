@@ -239,7 +239,7 @@ void ControlsSetup::answer(Answer answer) {
   } else if (now.kind == Kind::shifting) {
     choose_shifting(answer);
   } else if (now.kind == Kind::lever_mode) {
-    bindings_.lever_mode = answer == Answer::stays     ? LeverMode::places
+    bindings_.lever.mode = answer == Answer::stays     ? LeverMode::places
                            : answer == Answer::returns ? LeverMode::moves
                                                        : LeverMode::steps;
     next({});
@@ -271,7 +271,7 @@ void ControlsSetup::erase_shifting_except(Answer way) {
     std::optional<AxisBinding>& axis = bindings_.*info.axis;
     if (info.is_lever && axis && !keeps(Answer::lever, axis->of, axis->which)) axis = shipped_.*info.axis;
   }
-  if (way != Answer::lever) bindings_.lever_mode = shipped_.lever_mode;
+  if (way != Answer::lever) bindings_.lever.mode = shipped_.lever.mode;
   for (ControllerButtons& one : bindings_.controllers) {
     if (!keeps(Answer::gear_buttons, one.of, one.which)) one.gears.clear();
     if (keeps(Answer::two_buttons, one.of, one.which)) continue;

@@ -258,9 +258,9 @@ void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
   mouse_moved_lever_ = mouse_moves_lever_;
   const Bindings& bindings = config_.bindings;
   const glm::dvec2 at{stick(input, &Bindings::lever_select), stick(input, &Bindings::lever_shift)};
-  const bool moves = bindings.lever_mode == LeverMode::moves, places = bindings.lever_mode == LeverMode::places;
-  if (bindings.lever_mode == LeverMode::steps) shift_by_stick(at.y);
-  const glm::dvec2 speed = key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0));
+  const bool moves = bindings.lever.mode == LeverMode::moves, places = bindings.lever.mode == LeverMode::places;
+  if (bindings.lever.mode == LeverMode::steps) shift_by_stick(at.y);
+  const glm::dvec2 speed = key_speed() + (moves ? bindings.lever.speed * at * glm::abs(at) : glm::dvec2(0.0));
   const bool takes_over = speed != glm::dvec2(0.0) || (mouse_moves && input.mouse_moved != glm::dvec2(0.0)) ||
                           (places && at != glm::dvec2(0.0));
   if (takes_over) gear_hand_.release();
@@ -280,7 +280,7 @@ void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
 
 // Moving the mouse away from the user (pointer up) moves the hand forward.
 void DriverInput::aim_by_mouse(glm::dvec2 moved_px) {
-  const double metres = 1e-3 * config_.bindings.mouse_mm_per_px;
+  const double metres = 1e-3 * config_.bindings.pace.mouse_mm_per_px;
   const glm::dvec2 aim = aim_ + metres * glm::dvec2{moved_px.x, -moved_px.y};
   if (!std::isfinite(aim.x) || !std::isfinite(aim.y)) return;
   const glm::dvec2 farthest = config_.reach + kPushTravel;
@@ -290,8 +290,8 @@ void DriverInput::aim_by_mouse(glm::dvec2 moved_px) {
 
 glm::dvec2 DriverInput::key_speed() const {
   const auto direction = [this](Action plus, Action minus) { return double(is_held(plus)) - double(is_held(minus)); };
-  return config_.bindings.key_speed * glm::dvec2{direction(Action::lever_right, Action::lever_left),
-                                                 direction(Action::lever_forward, Action::lever_back)};
+  return config_.bindings.pace.key_speed * glm::dvec2{direction(Action::lever_right, Action::lever_left),
+                                                      direction(Action::lever_forward, Action::lever_back)};
 }
 
 // Moves the hand at `speed` for `seconds`, within its reach and at most kMaxKeyLead from the lever, so that a key held
@@ -307,7 +307,7 @@ void DriverInput::aim_by_speed(glm::dvec2 speed, double seconds) {
     since_key_motion_ += seconds;
     if (since_key_motion_ >= kRestDelay) aim_ = glm::clamp(aim_, lever_ - kRestLead, lever_ + kRestLead);
   }
-  const bool is_pulling = moves || mouse_moves_lever_ || config_.bindings.lever_mode == LeverMode::places;
+  const bool is_pulling = moves || mouse_moves_lever_ || config_.bindings.lever.mode == LeverMode::places;
   if (gate_ && haptics::is_sequential(*gate_) && !is_pulling) aim_ = lever_;
 }
 

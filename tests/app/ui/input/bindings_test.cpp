@@ -65,8 +65,8 @@ TEST_CASE("in the shipped bindings every action has a key, pedals and lever have
   CHECK(bindings.keys.at(Action::lever_forward) == std::vector{GLFW_KEY_UP});
   CHECK((bindings.lever_select && bindings.lever_shift && bindings.throttle && bindings.brake));
   CHECK(bindings.lever_shift->from == 1.0);
-  CHECK(bindings.mouse_mm_per_px == Bindings{}.mouse_mm_per_px);
-  CHECK(bindings.key_speed == Bindings{}.key_speed);
+  CHECK(bindings.pace.mouse_mm_per_px == Bindings{}.pace.mouse_mm_per_px);
+  CHECK(bindings.pace.key_speed == Bindings{}.pace.key_speed);
   CHECK(bindings.pedal_timing.pedal_time == Bindings{}.pedal_timing.pedal_time);
   CHECK(bindings.pedal_timing.slip_time == Bindings{}.pedal_timing.slip_time);
 }
@@ -127,8 +127,8 @@ TEST_CASE("several keys for one action, buttons and axes are read as written") {
   CHECK(bindings.clutch->to == -0.5);
   CHECK(bindings.clutch->dead_zone == 0.25);
   CHECK_FALSE(bindings.throttle);
-  CHECK(bindings.mouse_mm_per_px == 0.3);
-  CHECK(bindings.key_speed == 0.5);
+  CHECK(bindings.pace.mouse_mm_per_px == 0.3);
+  CHECK(bindings.pace.key_speed == 0.5);
   CHECK(bindings.pedal_timing.pedal_time == 1.0);
 }
 
@@ -148,7 +148,15 @@ TEST_CASE("an error gives file, line, key, value and the allowed values") {
   CHECK(begins(refusal(stop + "[[controller]]\narm = \"5\"\n"), "my.toml:3: stick is missing: it must be text"));
   CHECK(begins(refusal(stop + "[pace]\nmouse_mm_per_px = 0\n"),
                "my.toml:4: mouse_mm_per_px = 0: must be between 0.005 and 5"));
-  CHECK(begins(refusal(stop + "[pace]\nlever_key_m_per_s = 3\n"), "my.toml:4: lever_key_m_per_s = 3: must be between"));
+  CHECK(begins(refusal(stop + "[pace]\nlever_key_m_per_s = 3\n"),
+               "my.toml:4: lever_key_m_per_s = 3: must be between 0.01 and 2"));
+  CHECK(begins(refusal(stop + "[pace]\npedal_key_s = 6\n"), "my.toml:4: pedal_key_s = 6: must be between 0.01 and 5"));
+  CHECK(begins(refusal(stop + "[pace]\nclutch_key_slip_s = 11\n"),
+               "my.toml:4: clutch_key_slip_s = 11: must be between 0.01 and 10"));
+  CHECK(begins(refusal(stop + "[lever]\nfull_speed_m_per_s = 3\n"),
+               "my.toml:4: full_speed_m_per_s = 3: must be between 0.01 and 2"));
+  CHECK(begins(refusal(stop + "[lever]\nmode = \"jumps\"\n"),
+               "my.toml:4: mode = \"jumps\": must be one of moves, places, steps"));
   CHECK(begins(refusal(stop + "[pace]\npedal_key_s = nan\n"), "my.toml:4: pedal_key_s = nan: must be between"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\npad = 0\n"), "my.toml:3: axis is missing"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\nstick = \"G29\"\n"), "my.toml:3: axis is missing"));
@@ -251,9 +259,9 @@ TEST_CASE("stick names, a lever's rest, both dead zones and the lever mode are r
   CHECK(bindings.lever_select->of.stick == "T.16000M");
   CHECK(bindings.lever_select->centre == 0.1);
   CHECK(bindings.lever_select->end_zone == 0.05);
-  CHECK(bindings.lever_mode == LeverMode::places);
-  CHECK(bindings.stick_speed == 0.5);
-  CHECK(bindings_of(stop).lever_mode == LeverMode::moves);
+  CHECK(bindings.lever.mode == LeverMode::places);
+  CHECK(bindings.lever.speed == 0.5);
+  CHECK(bindings_of(stop).lever.mode == LeverMode::moves);
   CHECK(help_text(bindings, {}).find("T.16000M axis 0\tmove the lever sideways\n") != std::string::npos);
   CHECK(help_text(bindings, {}).find("Wheel button 3\tturn forces on") != std::string::npos);
   const std::string axis = stop + "[pad_axes.lever_select]\naxis = \"left_x\"\n";
@@ -279,8 +287,8 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
   full.lever_select->of = {"Stick", "046d:c24f"};
   full.lever_select->centre = 0.1234567890123456;
   full.lever_select->end_zone = 1.0 / 3.0;
-  full.lever_mode = LeverMode::steps;
-  full.stick_speed = 0.1;
+  full.lever.mode = LeverMode::steps;
+  full.lever.speed = 0.1;
   full.pedal_timing.slip_time = 2.5;
   for (const Bindings& bindings : {read_bindings(shipped), full}) {
     const TempFolder folder;
@@ -304,8 +312,8 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
     CHECK(back.lever_select->centre == bindings.lever_select->centre);
     CHECK(back.lever_select->end_zone == bindings.lever_select->end_zone);
     CHECK(back.lever_shift->from == bindings.lever_shift->from);
-    CHECK(back.lever_mode == bindings.lever_mode);
-    CHECK(back.stick_speed == bindings.stick_speed);
+    CHECK(back.lever.mode == bindings.lever.mode);
+    CHECK(back.lever.speed == bindings.lever.speed);
     CHECK(back.pedal_timing.slip_time == bindings.pedal_timing.slip_time);
   }
 }

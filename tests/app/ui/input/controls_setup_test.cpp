@@ -153,7 +153,7 @@ TEST_CASE("a button that is held in neutral and released in a gear is neutral's;
   });
   CHECK(lever_value(*lever.setup.bindings().lever_select, -0.9) == -1.0);
   CHECK(lever.setup.bindings().lever_shift->axis == 1);
-  CHECK(lever.setup.bindings().lever_mode == LeverMode::places);
+  CHECK(lever.setup.bindings().lever.mode == LeverMode::places);
 
   Person sprung;  // a sequential lever with an axis
   sprung.go_through([&](const std::string& prompt) {
@@ -162,7 +162,7 @@ TEST_CASE("a button that is held in neutral and released in a gear is neutral's;
     return has(prompt, "stay in place") ? Answer::steps : Answer::skip;
   });
   CHECK(sprung.setup.bindings().lever_shift->axis == 1);
-  CHECK(sprung.setup.bindings().lever_mode == LeverMode::steps);
+  CHECK(sprung.setup.bindings().lever.mode == LeverMode::steps);
   CHECK(bindings_text(sprung.setup.bindings()).find("mode = \"steps\"") != std::string::npos);
   CHECK(help_text(sprung.setup.bindings(), {}).find("axis 1\tback: one gear up, forward: one gear down\n") !=
         std::string::npos);
@@ -246,7 +246,7 @@ TEST_CASE("an axis that is bound to another control in this run is refused; an o
 
 TEST_CASE("each way of shifting replaces the others, and gives a game pad its lever back") {
   Bindings start;
-  start.lever_mode = LeverMode::places;
+  start.lever.mode = LeverMode::places;
   start.lever_select = AxisBinding{.of = {"Old lever", ""}};
   start.controllers = {{{"Old Shifter", ""}, 0, {{Action::shift_up, {1}}}, {{1, {0}}}}};
   Person person(start);
@@ -254,7 +254,7 @@ TEST_CASE("each way of shifting replaces the others, and gives a game pad its le
       [&](const std::string& prompt) { return has(prompt, "How do you shift") ? Answer::other : Answer::skip; });
   const Bindings& bindings = person.setup.bindings();
   CHECK(bindings.lever_select->of.stick.empty());
-  CHECK(bindings.lever_mode == LeverMode::moves);
+  CHECK(bindings.lever.mode == LeverMode::moves);
   CHECK(bindings.controllers.empty());  // it has no button left, so it is not missed when it is unplugged
 }
 

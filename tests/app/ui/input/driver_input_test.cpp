@@ -39,7 +39,7 @@ Bindings bindings() {
   b.lever_select = AxisBinding{.axis = 0, .dead_zone = 0.2};
   b.lever_shift = AxisBinding{.axis = 1, .from = 1.0, .to = -1.0, .dead_zone = 0.2};
   b.throttle = AxisBinding{.axis = 2};
-  b.lever_mode = LeverMode::places;
+  b.lever.mode = LeverMode::places;
   return b;
 }
 
@@ -462,8 +462,8 @@ TEST_CASE("a deflected stick sets the hand's position, and a released stick retu
 
 TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyond the dead zone, at any frame rate") {
   Bindings custom = bindings();
-  custom.lever_mode = LeverMode::moves;
-  custom.stick_speed = 0.3;
+  custom.lever.mode = LeverMode::moves;
+  custom.lever.speed = 0.3;
   for (const int parts : {1, 10}) {
     DriverInput driver({custom, {0.06, 0.05}});
     WindowInput input;

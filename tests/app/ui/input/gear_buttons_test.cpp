@@ -302,7 +302,7 @@ TEST_CASE("keys take the hand over from a shifter, whose next gear takes it back
 
 TEST_CASE("a lever that stays in place does not lean on the gear: at its own end the hand aims at the gear's rest") {
   Bindings bindings;
-  bindings.lever_mode = LeverMode::places;
+  bindings.lever.mode = LeverMode::places;
   bindings.lever_select = AxisBinding{.of = {"Shifter", ""}, .axis = 0};
   bindings.lever_shift = AxisBinding{.of = {"Shifter", ""}, .axis = 1};
   ShifterDesk desk(paper_gate());
@@ -328,7 +328,7 @@ TEST_CASE("a lever that stays in place does not lean on the gear: at its own end
 Bindings axis_bindings(LeverMode mode) {
   Bindings bindings = shifter_bindings();
   bindings.controllers.clear();
-  bindings.lever_mode = mode;
+  bindings.lever.mode = mode;
   bindings.lever_shift = AxisBinding{.of = {"Shifter", ""}, .axis = 1};
   return bindings;
 }

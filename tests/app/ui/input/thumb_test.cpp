@@ -57,7 +57,7 @@ class ThumbDesk {
         return true;
       }
       const dvec2 aim = waypoint(gear);
-      thumb(bindings_.lever_mode == LeverMode::moves ? towards(aim) : hold_deflection(aim));
+      thumb(bindings_.lever.mode == LeverMode::moves ? towards(aim) : hold_deflection(aim));
       frame();
     }
     return false;
@@ -80,7 +80,7 @@ class ThumbDesk {
  private:
   static Bindings shipped(LeverMode mode) {
     Bindings bindings = read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml");
-    bindings.lever_mode = mode;
+    bindings.lever.mode = mode;
     return bindings;
   }
   static SimulatedLeverConfig gripped() {
@@ -108,7 +108,7 @@ class ThumbDesk {
   dvec2 towards(dvec2 aim) const {
     dvec2 deflection{0.0, 0.0};
     for (int i = 0; i < 2; ++i) {
-      const double distance = aim[i] - visible_lever()[i], fraction = std::abs(distance) / 0.3 / bindings_.stick_speed;
+      const double distance = aim[i] - visible_lever()[i], fraction = std::abs(distance) / 0.3 / bindings_.lever.speed;
       if (std::abs(distance) > 0.0015)
         deflection[i] = std::copysign(std::clamp(std::sqrt(fraction), 0.2, 1.0), distance);
     }
