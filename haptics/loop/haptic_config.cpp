@@ -13,7 +13,6 @@
 #include "haptics/files/number_text.h"
 #include "haptics/files/parameter_file.h"
 #include "haptics/files/range_check.h"
-#include "haptics/gate/gate_feel.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -318,9 +317,8 @@ void limit_swing(const HapticConfig& config, const DeviceSpec& spec, ContactLaw 
 }
 
 // The feel is evaluated where the hold predicts the proxy, and only the damping outside the walls acts with it.
-void limit_feel(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate, ContactLaw law,
+void limit_feel(const HapticConfig& config, const DeviceSpec& spec, double stiffest, ContactLaw law,
                 AdmittedTuning& admitted, const Limiter& limiter) {
-  const double stiffest = max_feel_stiffness(gate);
   if (stiffest == 0.0) return;
   double& scale = admitted.tuning.feel_scale;
   limiter.limit(scale, admitted.tuning.wall_stiffness / stiffest, &HapticTuning::feel_scale, kFeelLaw);
@@ -364,10 +362,10 @@ bool is_softer_than_half_sample(const HapticConfig& config, const DeviceSpec& sp
 
 // Admits the tuning with the half-sample hold. Used if the observer hold is selected, but cannot be used on this device
 // because of `law`.
-AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, const Gate& gate,
+AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, double feel_stiffness,
                                         const char* law, std::string_view hand) {
   config.contact.hold = ContactHold::half_sample;
-  AdmittedTuning fallback = admit_tuning(config, device, gate);
+  AdmittedTuning fallback = admit_tuning(config, device, feel_stiffness);
   const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(fallback.hold);
   fallback.limits.push_back({law, kHold, from, to, to, std::string(hand)});
   return fallback;
@@ -449,12 +447,12 @@ ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitte
   return law;
 }
 
-AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device, const Gate& gate) {
+AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device, double feel_stiffness) {
   check_unstable_options(config, device);
   DeviceSpec spec = scale_device_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, select_hold(config, spec), {}};
   if (out.hold == ContactHold::observer && !can_observe(config, spec) && !config.contact.allow_unstable)
-    return fall_back_to_half_sample(config, device, gate, kCountObserverLaw, {});
+    return fall_back_to_half_sample(config, device, feel_stiffness, kCountObserverLaw, {});
   if (out.hold == ContactHold::observer)
     spec.device_wall_damping = glm::dvec2(0.0);  // the observer would attribute the damper's force to the hand
   out.tuning.wall_damping -= usable_wall_damping(spec);
@@ -470,15 +468,15 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
       stable_stiffness(config, spec, wall, out.tuning.wall_stiffness, out.tuning.limit_damping);
   if (stable.max == 0.0 && !config.contact.allow_unstable) {
     if (out.hold == ContactHold::observer)
-      return fall_back_to_half_sample(config, device, gate, kObserverLaw, stable.hand);
+      return fall_back_to_half_sample(config, device, feel_stiffness, kObserverLaw, stable.hand);
     if (usable_wall_stiffness(spec) == 0.0)
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }
   limiter.limit(out.tuning.wall_stiffness, stable.max, &HapticTuning::wall_stiffness, kStableLaw, stable.hand);
   limit_swing(config, spec, wall, out, limiter);
   if (config.contact.hold == ContactHold::automatic && is_softer_than_half_sample(config, spec, out))
-    return fall_back_to_half_sample(config, device, gate, kSwingLaw, kHeaviestHand.name);
-  limit_feel(config, spec, gate, wall, out, limiter);
+    return fall_back_to_half_sample(config, device, feel_stiffness, kSwingLaw, kHeaviestHand.name);
+  limit_feel(config, spec, feel_stiffness, wall, out, limiter);
   limit_to_device_walls(config, spec, out, limiter);
   add_device_part(out, out.tuning.wall_stiffness, &HapticTuning::wall_stiffness, config.tuning.wall_stiffness,
                   usable_wall_stiffness(spec), " N/m");

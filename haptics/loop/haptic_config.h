@@ -10,7 +10,6 @@
 #include "haptics/contact/lever_estimator.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/gate/gate.h"
 #include "haptics/safety/energy_control.h"
 #include "haptics/safety/force_guard.h"
 
@@ -186,7 +185,8 @@ void check_device(const DeviceSpec& spec);
 //
 // With allow_unstable, limits are reported but not applied. Throws std::invalid_argument for options that need
 // allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.
-AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
+// feel_stiffness: [N/m] max_feel_stiffness() of the gate.
+AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, double feel_stiffness);
 
 // [N/m] The loop's part of the wall: the whole stiffness minus the device wall's.
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;

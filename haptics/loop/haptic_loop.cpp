@@ -66,7 +66,7 @@ const char* to_string(LoopCommand command) noexcept {
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
                        LoopInputs& inputs)
     : config_(validated(config, device.spec())),
-      admitted_(admit_tuning(config, device.spec(), gate)),
+      admitted_(admit_tuning(config, device.spec(), max_feel_stiffness(gate))),
       gate_(gate),
       device_(device),
       spec_(device.spec()),
@@ -91,7 +91,7 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   HapticConfig config = config_;
   config.tuning = wanted;
   config.contact.hold = admitted_.hold;  // the contact hold method cannot change while the loop runs
-  AdmittedTuning admitted = admit_tuning(config, spec_, gate_);
+  AdmittedTuning admitted = admit_tuning(config, spec_, stiffest_feel_);
   if (admitted.hold != admitted_.hold) {
     throw std::invalid_argument("this tuning needs a different hold; restart the loop to use it");
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_feel.h"
 #include "haptics/gate/gate_layout.h"
 
 namespace gearshift::test {
@@ -18,6 +19,11 @@ inline haptics::Gate shipped_gate(const std::string& name) {
 
 inline haptics::Gate paper_gate() {
   return shipped_gate("paper");
+}
+
+inline double paper_feel() {  // [N/m]
+  static const double feel = haptics::max_feel_stiffness(paper_gate());
+  return feel;
 }
 
 inline constexpr const char* kSequentialGate = "sequential_six";

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "haptics/gate/plain_aisle.h"
-
 namespace gearshift::lab {
 namespace {
 
@@ -37,7 +35,7 @@ RuntimeAnswer query_runtime(const StabilityQuestion& question) {
   RuntimeAnswer answer{{}, config.tuning.wall_stiffness, config.tuning.wall_damping, {}};
   try {
     haptics::check_config(config);
-    answer.admitted = haptics::admit_tuning(config, device_of(question), haptics::plain_aisle(1.0, 1.0));
+    answer.admitted = haptics::admit_tuning(config, device_of(question), 0.0);
   } catch (const std::invalid_argument& refused) {
     answer.problem = refused.what();
   }

@@ -11,7 +11,6 @@
 
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/panel_keys.h"
-#include "app/ui/panel/tuning_check.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/safety/energy_control.h"
@@ -85,14 +84,15 @@ void SetupView::draw_fields(Controls& controls) {
 
 // Checks the edited values only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
-  const Basis basis{staged_, input.device, haptics::max_feel_stiffness(input.gate)};
-  if (basis == judged_) return;
-  judged_ = basis;
+  const TuningQuestion question{staged_, input.device, haptics::max_feel_stiffness(input.gate)};
+  if (question == judged_) return;
+  judged_ = question;
   rejection_.clear();
   limits_text_.clear();
   try {
     haptics::check_config(staged_);
-    for (const haptics::TuningLimit& limit : haptics::admit_tuning(staged_, input.device, input.gate).limits)
+    for (const haptics::TuningLimit& limit :
+         haptics::admit_tuning(staged_, input.device, question.feel_stiffness).limits)
       limits_text_ += (limits_text_.empty() ? "" : "\n") + format_limit(limit);
   } catch (const std::invalid_argument& refused) {
     rejection_ = refused.what();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/ui/panel/panel.h"
+#include "app/ui/panel/tuning_check.h"
 
 namespace gearshift::ui {
 
@@ -18,19 +19,11 @@ class SetupView {
   void draw_restart(Controls& controls, const PanelInput& input, PanelCommands& out);
   void judge(const PanelInput& input);
 
-  // All inputs on which the check depends.
-  struct Basis {
-    haptics::HapticConfig config;
-    haptics::DeviceSpec device;
-    double stiffest_feel = 0.0;  // [N/m] of the gate
-    bool operator==(const Basis&) const = default;
-  };
-
   bool is_changed() const;  // the staged values differ from the running ones
 
   haptics::HapticConfig staged_;
   std::optional<haptics::HapticConfig> running_;  // without its tuning, which has its own tab
-  std::optional<Basis> judged_;                   // inputs of the last check
+  std::optional<TuningQuestion> judged_;          // by the last check
   std::string rejection_, limits_text_;           // verdict
 };
 

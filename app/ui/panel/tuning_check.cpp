@@ -7,17 +7,9 @@
 #include <fmt/format.h>
 
 #include "app/ui/panel/format_value.h"
-#include "haptics/gate/gate_feel.h"
 
 namespace gearshift::ui {
 namespace {
-
-// Returns the configuration with the contact hold method of the running loop, which cannot change while the loop runs.
-haptics::HapticConfig with_running_hold(const TuningQuestion& question) {
-  haptics::HapticConfig config = question.config;
-  config.contact.hold = question.hold;
-  return config;
-}
 
 TuningQuestion with_value(TuningQuestion question, const TuningField& field, double value) {
   value_of(question.config.tuning, field) = value;
@@ -50,11 +42,11 @@ double limited_extreme(const TuningQuestion& question, const TuningField& field,
 TuningAnswer answer(const TuningQuestion& question) {
   TuningAnswer out;
   out.admitted.tuning = question.config.tuning;
-  out.admitted.hold = question.hold;
+  out.admitted.hold = question.config.contact.hold;
   try {
     haptics::check_tuning(question.config.tuning);
-    out.admitted = haptics::admit_tuning(with_running_hold(question), question.device, *question.gate);
-    if (out.admitted.hold != question.hold)
+    out.admitted = haptics::admit_tuning(question.config, question.device, question.feel_stiffness);
+    if (out.admitted.hold != question.config.contact.hold)
       out.refused = "These values need a different Hold setting. Change Hold in Setup and restart the loop.";
   } catch (const std::invalid_argument& refused) {
     out.refused = refused.what();
@@ -76,7 +68,7 @@ StableRanges stable_ranges(const TuningQuestion& question) {
   // The gate's feel (centring, detents) is limited if the wall is softer than the feel. So the wall's stable range
   // begins at the stiffness of the feel.
   constexpr std::size_t kWall = index_of(&haptics::HapticTuning::wall_stiffness);
-  const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
+  const double feel = question.config.tuning.feel_scale * question.feel_stiffness;
   if (feel > 0.99 * ranges[kWall].min && answer(with_value(safe, kTuningFields[kWall], feel)).admissible)
     ranges[kWall].min = feel;
   return ranges;
@@ -104,25 +96,19 @@ std::string format_limit(const haptics::TuningLimit& limit) {
                      limit.hand.empty() ? "" : ". Deciding hand: ", limit.hand);
 }
 
-TuningJudge::Basis TuningJudge::basis_of(const TuningQuestion& question) {
-  return {question.config, question.device, question.hold, haptics::max_feel_stiffness(*question.gate)};
-}
-
 const TuningAnswer& TuningJudge::judge(const TuningQuestion& question) {
-  const Basis basis = basis_of(question);
-  if (!answer_ || basis != answer_basis_) {
+  if (!answer_ || question != answered_) {
     answer_ = answer(question);
-    answer_basis_ = basis;
+    answered_ = question;
   }
   return *answer_;
 }
 
 const StableRanges& TuningJudge::ranges(const TuningQuestion& question, bool frozen) {
   if (ranges_ && frozen) return *ranges_;
-  const Basis basis = basis_of(question);
-  if (!ranges_ || basis != ranges_basis_) {
+  if (!ranges_ || question != ranged_) {
     ranges_ = stable_ranges(question);
-    ranges_basis_ = basis;
+    ranged_ = question;
   }
   return *ranges_;
 }

@@ -22,13 +22,15 @@ struct StableRange {
 };
 using StableRanges = std::array<StableRange, std::size(kTuningFields)>;
 
+// The arguments of admit_tuning(), so that the answers to equal questions are equal.
 struct TuningQuestion {
   haptics::HapticConfig config;  // contains the requested tuning
   haptics::DeviceSpec device;
-  const haptics::Gate* gate = nullptr;                            // never null
-  haptics::ContactHold hold = haptics::ContactHold::half_sample;  // contact hold method of the running loop
+  double feel_stiffness = 0.0;  // [N/m] haptics::max_feel_stiffness() of the gate
+  bool operator==(const TuningQuestion&) const = default;
 };
 
+// The question has the contact hold method of the running loop, which cannot change while the loop runs.
 TuningAnswer answer(const TuningQuestion& question);
 
 // Returns the ranges for a lever that a user may touch, so allow_unstable is ignored. If the requested tuning is not
@@ -41,7 +43,7 @@ std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& questi
 // Describes a TuningLimit in a sentence: value, bound, stability rule, and the modelled hand with the lowest bound.
 std::string format_limit(const haptics::TuningLimit& limited);
 
-// Caches the last answer until one of its inputs changes.
+// Caches the last answer until the question changes.
 class TuningJudge {
  public:
   const TuningAnswer& judge(const TuningQuestion& question);
@@ -50,19 +52,9 @@ class TuningJudge {
   const StableRanges& ranges(const TuningQuestion& question, bool frozen = false);
 
  private:
-  // All inputs on which an answer depends.
-  struct Basis {
-    haptics::HapticConfig config;
-    haptics::DeviceSpec device;
-    haptics::ContactHold hold = haptics::ContactHold::half_sample;
-    double stiffest_feel = 0.0;  // [N/m] of the gate
-    bool operator==(const Basis&) const = default;
-  };
-  static Basis basis_of(const TuningQuestion& question);
-
   std::optional<TuningAnswer> answer_;
   std::optional<StableRanges> ranges_;
-  Basis answer_basis_{}, ranges_basis_{};
+  TuningQuestion answered_, ranged_;
 };
 
 }  // namespace gearshift::ui

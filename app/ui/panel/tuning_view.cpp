@@ -9,6 +9,7 @@
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 #include "haptics/contact/virtual_coupling.h"
+#include "haptics/gate/gate_feel.h"
 
 namespace gearshift::ui {
 namespace {
@@ -58,8 +59,9 @@ void TuningView::follow(const PanelInput& input) {
 }
 
 TuningQuestion TuningView::question(const PanelInput& input, const haptics::HapticTuning& tuning) const {
-  TuningQuestion question{input.haptics, input.device, &input.gate, input.admitted.hold};
+  TuningQuestion question{input.haptics, input.device, haptics::max_feel_stiffness(input.gate)};
   question.config.tuning = tuning;
+  question.config.contact.hold = input.admitted.hold;
   return question;
 }
 

@@ -298,12 +298,11 @@ TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports th
   known.select.high = known.shift.low = 1023.0;  // counts of 137 um: coarser ones are limited further
   known.select.centre = known.shift.centre = 511.0;
   const DeviceSpec spec = spec_of(known, 0.001);
-  const Gate gate = paper_gate();
   HapticConfig config;
 
   config.contact.hold = ContactHold::zero_order;
   config.tuning.wall_damping = config.tuning.aisle_damping = config.tuning.limit_damping = 0.0;
-  const AdmittedTuning plain = admit_tuning(config, spec, gate);
+  const AdmittedTuning plain = admit_tuning(config, spec, paper_feel());
   CHECK(plain.tuning.wall_stiffness > 683.0);
   CHECK(plain.tuning.wall_stiffness < 873.0);
   REQUIRE_FALSE(plain.limits.empty());
@@ -312,7 +311,7 @@ TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports th
 
   config = {};
   config.contact.hold = ContactHold::half_sample;
-  const AdmittedTuning held = admit_tuning(config, spec, gate);
+  const AdmittedTuning held = admit_tuning(config, spec, paper_feel());
   // The limit is 1881 N/m, the limit of the lighter axis.
   CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));
   const auto is_wall = [](const TuningLimit& one) {

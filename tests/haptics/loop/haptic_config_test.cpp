@@ -69,7 +69,7 @@ AdmittedTuning admitted(const HapticTuning& wanted, double rate, int delay, Cont
   config.contact.hold = hold;
   DeviceSpec spec;
   spec.delay = delay;
-  return admit_tuning(config, spec, paper_gate());
+  return admit_tuning(config, spec, paper_feel());
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ TEST_CASE("quiet on a device's springs: K <= 0.5 m / tau^2 above springs of m / 
   HapticConfig config;
   for (const auto& [own, factor] : {std::pair{1000.0, 0.58}, {2300.0, 0.58}, {2500.0, 0.5}, {3000.0, 0.5}}) {
     spec.device_wall_stiffness = {own, own};
-    const AdmittedTuning found = admit_tuning(config, spec, paper_gate());
+    const AdmittedTuning found = admit_tuning(config, spec, paper_feel());
     CHECK(found.hold == ContactHold::observer);
     CHECK(found.tuning.wall_stiffness == doctest::Approx(own + factor * unit));
   }
@@ -168,7 +168,7 @@ AdmittedTuning admitted_on(double step, const HapticConfig& config, int delay = 
   DeviceSpec spec;
   spec.delay = delay;
   spec.position_step = step;
-  return admit_tuning(config, spec, paper_gate());
+  return admit_tuning(config, spec, paper_feel());
 }
 
 std::string limits_text(const AdmittedTuning& admitted) {
@@ -289,15 +289,15 @@ TEST_CASE("slew: K <= S / (T 1 m/s), so that the force follows a contact at 1 m/
 TEST_CASE("options that need allow_unstable are refused without it") {
   HapticConfig config;
   config.estimator.window = 15;
-  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_gate()), doctest::Contains("window"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_feel()), doctest::Contains("window"), std::invalid_argument);
   config = {};
   config.contact.reversal_limiter = false;
-  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_gate()), doctest::Contains("limiter"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_feel()), doctest::Contains("limiter"), std::invalid_argument);
   config = {};
   config.contact.energy_control = EnergyControl::passivity_controller;
-  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_gate()), doctest::Contains("passivity"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(admit_tuning(config, {}, paper_feel()), doctest::Contains("passivity"), std::invalid_argument);
   config.contact.energy_control = EnergyControl::energy_bounding;
-  CHECK_NOTHROW(admit_tuning(config, {}, paper_gate()));
+  CHECK_NOTHROW(admit_tuning(config, {}, paper_feel()));
 }
 
 TEST_CASE("a device with invalid properties is refused") {
@@ -355,9 +355,9 @@ TEST_CASE("allow_unstable uses the wanted values, still reports what is not stab
   config.contact.allow_unstable = true;
   config.contact.hold = ContactHold::zero_order;
   DeviceSpec spec;
-  CHECK_THROWS_WITH_AS(admit_tuning(config, spec, paper_gate()), doctest::Contains("study"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(admit_tuning(config, spec, paper_feel()), doctest::Contains("study"), std::invalid_argument);
   spec.simulated = true;
-  const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
+  const AdmittedTuning used = admit_tuning(config, spec, paper_feel());
   CHECK(used.tuning == config.tuning);
   REQUIRE_FALSE(used.limits.empty());
   for (const TuningLimit& limited : used.limits) CHECK(limited.used == limited.wanted);
@@ -367,7 +367,7 @@ TEST_CASE("the feel is no stiffer than the wall that carries the proxy") {
   HapticTuning wanted;
   wanted.feel_scale = 4.0;
   const HapticTuning used = admitted(wanted, 1000.0, 0).tuning;
-  CHECK(used.feel_scale * max_feel_stiffness(paper_gate()) <= used.wall_stiffness * (1.0 + 1e-12));
+  CHECK(used.feel_scale * paper_feel() <= used.wall_stiffness * (1.0 + 1e-12));
 }
 
 namespace {
@@ -400,8 +400,8 @@ TEST_CASE("feel: outside the walls only the free damping acts, so a late feel is
       CAPTURE(delay);
       config.rate = rate;
       spec.delay = delay;
-      const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
-      const double feel = used.tuning.feel_scale * max_feel_stiffness(paper_gate());
+      const AdmittedTuning used = admit_tuning(config, spec, paper_feel());
+      const double feel = used.tuning.feel_scale * paper_feel();
       // A held force comes half a period late on average.
       const auto swings_at = [&](const AxisModel& axis) {
         return swinging_stiffness(axis, used.tuning.aisle_damping, config.estimator.smoothing,
@@ -427,7 +427,7 @@ AdmittedTuning admitted_with_device_walls(double own, double wanted, int delay,
   DeviceSpec spec;
   spec.delay = delay;
   spec.device_wall_stiffness = {own, own};
-  return admit_tuning(config, spec, paper_gate());
+  return admit_tuning(config, spec, paper_feel());
 }
 
 const TuningLimit* limit_of(TuningParameter what, const AdmittedTuning& admitted) {
@@ -450,7 +450,7 @@ AdmittedTuning admitted_with(const DeviceSpec& spec, double damping, ContactHold
   HapticConfig config;
   config.tuning.wall_damping = damping;
   config.contact.hold = hold;
-  return admit_tuning(config, spec, paper_gate());
+  return admit_tuning(config, spec, paper_feel());
 }
 
 }  // namespace
@@ -524,9 +524,9 @@ TEST_CASE("feel is rendered only by the loop: a device wall does not allow a sti
   DeviceSpec spec;
   spec.delay = 3;
   spec.device_wall_stiffness = {4000.0, 4000.0};
-  const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
+  const AdmittedTuning used = admit_tuning(config, spec, paper_feel());
   CHECK(used.tuning.wall_stiffness > 4000.0);
-  CHECK(used.tuning.feel_scale * max_feel_stiffness(paper_gate()) <= 0.58 * 0.086 / 16e-6 * (1.0 + 1e-12));
+  CHECK(used.tuning.feel_scale * paper_feel() <= 0.58 * 0.086 / 16e-6 * (1.0 + 1e-12));
 }
 
 TEST_CASE("every tuning admitted with device dampers is stable with all, half and none of their damping") {

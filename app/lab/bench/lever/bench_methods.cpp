@@ -126,7 +126,7 @@ bool is_default(const Method& method, const LoopTiming& at) {
   config.rate = at.rate;
   haptics::DeviceSpec spec;
   spec.delay = at.delay;
-  const haptics::AdmittedTuning admitted = haptics::admit_tuning(config, spec, haptics::plain_aisle(0.05, 0.05));
+  const haptics::AdmittedTuning admitted = haptics::admit_tuning(config, spec, 0.0);
   return admitted.hold == method.hold && admitted.tuning.wall_damping == damping_of(method, at) &&
          admitted.tuning.wall_stiffness == kWanted && config.contact.energy_control == method.control;
 }

@@ -75,7 +75,7 @@ TEST_CASE("values that need allow_unstable are not requested without it, and req
   REQUIRE(asked);
   CHECK(asked->config.contact.allow_unstable);
   CHECK_FALSE(asked->config.contact.reversal_limiter);
-  CHECK_NOTHROW(admit_tuning(asked->config, rig.device, rig.gate));
+  CHECK_NOTHROW(admit_tuning(asked->config, rig.device, paper_feel()));
   rig.input.haptics = asked->config;  // as if the program had executed the command
   rig.frame();
   CHECK_FALSE(has<Restart>(rig.click("restart")));

@@ -150,7 +150,7 @@ struct PanelRig {
     device.simulated = true;
     device.delay = delay;
     device.workspace = kPaperWorkspace;
-    input.admitted = haptics::admit_tuning(input.haptics, device, gate);
+    input.admitted = haptics::admit_tuning(input.haptics, device, paper_feel());
     input.gate_name = "paper";
     input.gates = {"paper", "four_speed", "dog_leg_five"};
     input.preset_name = "default";
@@ -179,7 +179,7 @@ struct PanelRig {
       haptics::HapticConfig wanted = input.haptics;
       wanted.tuning = change->tuning;
       wanted.contact.hold = input.admitted.hold;
-      input.admitted = haptics::admit_tuning(wanted, device, gate);
+      input.admitted = haptics::admit_tuning(wanted, device, paper_feel());
       input.haptics.tuning = change->tuning;
     }
     return asked;

@@ -49,7 +49,7 @@ TEST_CASE("a dragged slider requests tunings within its range, and the running l
       CHECK_NOTHROW(check_tuning(tuning));
       HapticConfig config = rig.input.haptics;
       config.tuning = tuning;
-      CHECK(admit_tuning(config, rig.device, rig.gate).tuning == tuning);
+      CHECK(admit_tuning(config, rig.device, paper_feel()).tuning == tuning);
     }
   }
   TuningRig other;
@@ -87,7 +87,7 @@ TEST_CASE("a rejected value can be reduced to the stable limit, or discarded") {
 TEST_CASE("with allow_unstable an unstable value is accepted") {
   TuningRig rig(1);
   rig.input.haptics.contact.allow_unstable = true;
-  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
+  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, paper_feel());
   rig.frame();
   const std::vector<HapticTuning> tunings = rig.drag(kStiffness, 0.25, 1.0, 10);
   REQUIRE_FALSE(tunings.empty());

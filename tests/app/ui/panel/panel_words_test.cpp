@@ -229,7 +229,7 @@ TEST_CASE("the loop's figures are next to their names") {
 TEST_CASE("a preset is compared with the active values, not with the requested ones") {
   PanelRig rig(1);  // one cycle of delay limits the wall stiffness to less than the 20000 N/m requested here
   rig.input.haptics.tuning.wall_stiffness = 20000.0;
-  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
+  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, paper_feel());
   const HapticTuning runs = rig.input.admitted.tuning;
   REQUIRE(runs.wall_stiffness < 20000.0);
   rig.click("tab_presets");
