@@ -187,11 +187,4 @@ ReplayResult Replayer::finish(std::uint64_t recorded_hash) const {
   return result;
 }
 
-ReplayResult replay(const Trace& trace, const LoadFactory& make_load) {
-  Replayer replayer(trace.header, trace.header.gate_file, make_load);
-  for (const TraceSample& sample : trace.samples)
-    if (!replayer.step(sample)) break;
-  return replayer.finish(trace.hash);
-}
-
 }  // namespace gearshift::haptics

@@ -9,7 +9,6 @@
 
 #include "haptics/loop/lever_load.h"
 #include "haptics/loop/trace_format.h"
-#include "haptics/loop/trace_reader.h"
 
 namespace gearshift::haptics {
 
@@ -58,7 +57,5 @@ class Replayer {
   ReplayResult result_;
   std::int64_t first_ns_ = 0;  // [ns]
 };
-
-ReplayResult replay(const Trace& trace, const LoadFactory& make_load = make_no_load);
 
 }  // namespace gearshift::haptics

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "haptics/files/file_error.h"
-#include "haptics/loop/trace_writer.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -183,21 +182,6 @@ void TraceReader::check_cycle(const TraceSample& sample) const {
 void TraceReader::check_end() const {
   if (torn_ || hash() == end_.hash) return;
   fail("the trace is damaged; its parameters and outputs do not match its end block");
-}
-
-Trace read_trace(const std::filesystem::path& file) {
-  TraceReader reader(file);
-  Trace trace{reader.header(), {}, 0};
-  for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
-  trace.hash = reader.hash();
-  return trace;
-}
-
-void write_trace(const std::filesystem::path& file, const TraceHeader& header, std::span<const TraceSample> samples) {
-  TraceWriter writer(file, header);
-  for (const TraceSample& sample : samples) writer.add(sample);
-  writer.finish();
-  if (!writer.problem().empty()) throw FileError(file.string(), 0, writer.problem());
 }
 
 }  // namespace gearshift::haptics

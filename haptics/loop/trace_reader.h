@@ -76,13 +76,4 @@ class TraceReader {
   RunHash hash_;
 };
 
-// A whole trace in memory, for short traces.
-struct Trace {
-  TraceHeader header;
-  std::vector<TraceSample> samples;
-  std::uint64_t hash = 0;  // recorded hash of parameters and outputs
-};
-Trace read_trace(const std::filesystem::path& file);
-void write_trace(const std::filesystem::path& file, const TraceHeader& header, std::span<const TraceSample> samples);
-
 }  // namespace gearshift::haptics

@@ -17,6 +17,7 @@
 #include "haptics/loop/trace_recorder.h"
 #include "tests/fuzz/fuzz_checks.h"
 #include "tests/support/gates.h"
+#include "tests/support/short_trace.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::lessons;

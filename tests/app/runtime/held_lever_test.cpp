@@ -12,6 +12,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/app/runtime/runtime_rig.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::haptics;

@@ -18,6 +18,7 @@
 #include "haptics/loop/trace_reader.h"
 #include "tests/app/runtime/runtime_rig.h"
 #include "tests/support/gates.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 

@@ -13,6 +13,7 @@
 #include "app/vehicle/car_load.h"
 #include "haptics/loop/replay.h"
 #include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/variable.h"

@@ -14,6 +14,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/support/memory_in_use.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/variable.h"

@@ -9,6 +9,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_recorder.h"
 #include "tests/app/vehicle/car_run.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::haptics;

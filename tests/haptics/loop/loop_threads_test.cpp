@@ -17,6 +17,7 @@
 #include "haptics/rt/broadcast.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/support/gates.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::haptics;

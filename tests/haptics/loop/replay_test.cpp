@@ -14,16 +14,17 @@
 #include "haptics/rt/broadcast.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/haptics/loop/recorded_drive.h"
+#include "tests/support/short_trace.h"
 
 namespace gearshift::test {
 namespace {
 
-const haptics::Trace& recorded_trace() {
-  static const haptics::Trace trace = [] {
+const Trace& recorded_trace() {
+  static const Trace trace = [] {
     const TempFolder folder;
     RecordedDrive drive;
     drive.record(folder / "drive.trace");
-    return haptics::read_trace(folder / "drive.trace");
+    return read_trace(folder / "drive.trace");
   }();
   return trace;
 }
@@ -57,9 +58,9 @@ void flip(haptics::HapticConfig& config, const std::string& wanted) {
   });
 }
 
-std::string refusal(const haptics::Trace& trace) {
+std::string refusal(const Trace& trace) {
   try {
-    haptics::replay(trace);
+    replay(trace);
   } catch (const haptics::FileError& error) {
     return error.what();
   }
@@ -113,7 +114,7 @@ TEST_CASE("replay: the drive of these tests contains everything it is meant to c
 }
 
 TEST_CASE("replay: a recorded drive replays bit for bit from its inputs alone") {
-  const haptics::ReplayResult result = haptics::replay(recorded_trace());
+  const haptics::ReplayResult result = replay(recorded_trace());
   CHECK(result.bit_for_bit());
   CHECK_FALSE(result.first.has_value());
   CHECK(result.cycles == RecordedDrive::kCycles);
@@ -148,9 +149,9 @@ TEST_CASE("replay: the hash covers every parameter, down to its lowest bit") {
 }
 
 TEST_CASE("replay: a changed parameter that affects no output still breaks the replay") {
-  haptics::Trace trace = recorded_trace();
+  Trace trace = recorded_trace();
   flip_lowest_bit(trace.header.config.ghost_offset);
-  const haptics::ReplayResult result = haptics::replay(trace);
+  const haptics::ReplayResult result = replay(trace);
   CHECK_FALSE(result.first.has_value());
   CHECK_FALSE(result.bit_for_bit());
 }
@@ -172,7 +173,7 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
   for (const std::string& name : names_of_doubles(recorded_trace().header.config)) {
     if (only_compared.count(name) != 0) continue;
     CAPTURE(name);
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     const haptics::HapticConfig before = trace.header.config;
     flip(trace.header.config, name);
     // Every recorded cycle also contains the tuning. The bit is flipped there, too, because otherwise the tuning itself
@@ -183,7 +184,7 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
       flip(as_sampled, name);
       sample.tuning = as_sampled.tuning;
     }
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->field.find("out.") == 0);
   }
@@ -191,9 +192,9 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
 
 TEST_CASE("replay: names the first cycle and field that differ, with both values") {
   SUBCASE("an input changed") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     flip_lowest_bit(trace.samples[1234].reading.position.y);
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 1234);
     CHECK(result.first->field == "out.lever.y");
@@ -201,42 +202,42 @@ TEST_CASE("replay: names the first cycle and field that differ, with both values
     CHECK(result.cycles == 1235);
   }
   SUBCASE("an output changed") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     trace.samples[7].out.commanded.x = 12.5;
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 7);
     CHECK(result.first->field == "out.commanded.x");
     CHECK(result.first->recorded == "12.5");
   }
   SUBCASE("a command lost") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     trace.samples[2600].command = haptics::LoopCommand::none;
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 2600);
   }
   SUBCASE("never armed") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     trace.header.armed = false;
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 0);
     CHECK(result.first->field == "out.commanded.x");
     CHECK(result.first->replayed == "0");
   }
   SUBCASE("another gate") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     const std::string key = "detent_force_n = 6";
     trace.header.gate_text.replace(trace.header.gate_text.find(key), key.size(), "detent_force_n = 7");
-    const haptics::ReplayResult result = haptics::replay(trace);
+    const haptics::ReplayResult result = replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->field == "out.feel_force.y");
   }
   SUBCASE("a deadline skipped that was not") {
-    haptics::Trace trace = recorded_trace();
+    Trace trace = recorded_trace();
     trace.samples[2005].skipped = 0;
-    CHECK_FALSE(haptics::replay(trace).bit_for_bit());
+    CHECK_FALSE(replay(trace).bit_for_bit());
   }
 }
 
@@ -245,19 +246,19 @@ TEST_CASE("replay: a load with memory replays, and only that load") {
   CreepingSpring spring;
   RecordedDrive drive(&spring);
   drive.record(folder / "drive.trace");
-  const haptics::Trace trace = haptics::read_trace(folder / "drive.trace");
+  const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.hash != recorded_trace().hash);
 
   const auto make_spring = [](const std::string& name, const haptics::Gate&) -> std::unique_ptr<haptics::LeverLoad> {
     auto load = std::make_unique<CreepingSpring>();
     return name == load->replay_parameters() ? std::move(load) : nullptr;
   };
-  CHECK(haptics::replay(trace, make_spring).bit_for_bit());
+  CHECK(replay(trace, make_spring).bit_for_bit());
   CHECK(contains(refusal(trace), "the lever load \"creeping spring 20 N/m\" is not known to this program"));
 }
 
 TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") {
-  haptics::Trace trace = recorded_trace();
+  Trace trace = recorded_trace();
   SUBCASE("began in the middle") {
     trace.samples.erase(trace.samples.begin(), trace.samples.begin() + 500);
     CHECK(contains(refusal(trace), "recording began in the middle of a run, at cycle 500"));
@@ -322,7 +323,7 @@ TEST_CASE(
   const haptics::RecordingResult recorded = recorder.finish();
   CHECK(recorded.problem.empty());
   CHECK(recorded.cycles >= kEnough);
-  const haptics::ReplayResult result = haptics::replay(haptics::read_trace(folder / "live.trace"));
+  const haptics::ReplayResult result = replay(read_trace(folder / "live.trace"));
   CHECK(result.bit_for_bit());
   CHECK(result.replayed_hash == recorded.hash);
 }

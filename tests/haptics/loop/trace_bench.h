@@ -13,6 +13,7 @@
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/trace_reader.h"
 #include "haptics/loop/trace_writer.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 
 namespace gearshift::test {
@@ -92,7 +93,7 @@ inline haptics::TraceHeader paper_header() {
 }
 
 inline std::filesystem::path put_trace(const std::filesystem::path& file, std::size_t cycles) {
-  haptics::write_trace(file, paper_header(), any_samples(cycles));
+  write_trace(file, paper_header(), any_samples(cycles));
   return file;
 }
 

@@ -102,8 +102,8 @@ TEST_CASE("trace: every bit of every field comes back, NaN payloads and signed z
   const TempFolder folder;
   for (const std::size_t count : {1u, 255u, 256u, 257u, 1000u}) {
     const std::vector<haptics::TraceSample> samples = any_samples(count, count);
-    haptics::write_trace(folder / "t.trace", paper_header(), samples);
-    const haptics::Trace back = haptics::read_trace(folder / "t.trace");
+    write_trace(folder / "t.trace", paper_header(), samples);
+    const Trace back = read_trace(folder / "t.trace");
     REQUIRE(back.samples.size() == count);
     for (std::size_t i = 0; i < count; ++i) REQUIRE(same_sample(back.samples[i], samples[i]));
   }
@@ -122,9 +122,9 @@ TEST_CASE("trace: the whole header is read back") {
   header.gate_text += "# \xC3\xBC and a zero: ";
   header.gate_text.push_back('\0');
   header.load = "driveline 7";
-  haptics::write_trace(folder / "t.trace", header, any_samples(2));
+  write_trace(folder / "t.trace", header, any_samples(2));
 
-  const haptics::TraceHeader back = haptics::read_trace(folder / "t.trace").header;
+  const haptics::TraceHeader back = read_trace(folder / "t.trace").header;
   CHECK(back.program == "1.2.3");
   CHECK(back.config.rate == 2000.0);
   CHECK(back.config.tuning.wall_stiffness == 1234.5678901234567);
@@ -189,8 +189,8 @@ TEST_CASE("trace: the parameters are in the order of version 8") {
 TEST_CASE("trace: the hash of a run changes with every output and every parameter, not with the inputs") {
   const TempFolder folder;
   const auto hash_of = [&](const haptics::TraceHeader& header, const haptics::TraceSample& sample) {
-    haptics::write_trace(folder / "t.trace", header, std::span(&sample, 1));
-    return haptics::read_trace(folder / "t.trace").hash;
+    write_trace(folder / "t.trace", header, std::span(&sample, 1));
+    return read_trace(folder / "t.trace").hash;
   };
   const haptics::TraceHeader header = paper_header();
   const haptics::TraceSample sample = any_samples(1)[0];

@@ -107,7 +107,7 @@ void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samp
 // Returns the error message of reading the whole file; empty if there is none.
 std::string refusal(const std::filesystem::path& file) {
   try {
-    haptics::read_trace(file);
+    read_trace(file);
   } catch (const haptics::FileError& error) {
     return error.what();
   }
@@ -318,7 +318,7 @@ TEST_CASE("hostile traces: flipping any one byte anywhere is noticed") {
     CAPTURE(at);
     bytes[at] ^= 0x10;
     put_file(folder / "t.trace", bytes);
-    CHECK_THROWS_AS(haptics::read_trace(folder / "t.trace"), haptics::FileError);
+    CHECK_THROWS_AS(read_trace(folder / "t.trace"), haptics::FileError);
     bytes[at] ^= 0x10;
   }
 }
@@ -328,7 +328,7 @@ TEST_CASE("hostile traces: truncating the file anywhere is noticed, and only com
   const Bytes bytes = file_bytes(put_trace(folder / "t.trace", 3));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     put_file(folder / "t.trace", slice(bytes, 0, size));
-    CHECK_THROWS_AS(haptics::read_trace(folder / "t.trace"), haptics::FileError);
+    CHECK_THROWS_AS(read_trace(folder / "t.trace"), haptics::FileError);
   }
 }
 

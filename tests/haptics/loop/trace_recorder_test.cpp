@@ -96,7 +96,7 @@ TEST_CASE("recorder: every cycle of the loop is in the file, in order") {
   CHECK(result.cycles == 20'000);
   CHECK_FALSE(result.torn);
   CHECK(result.problem.empty());
-  const haptics::Trace trace = haptics::read_trace(folder / "t.trace");
+  const Trace trace = read_trace(folder / "t.trace");
   REQUIRE(trace.samples.size() == 20'000);
   CHECK(trace.samples[12'345].out.cycle == 12'345);
   CHECK(trace.samples[12'345].reading.sequence == 12'345);
@@ -118,7 +118,7 @@ TEST_CASE("recorder: a lost cycle tears the trace, which keeps every cycle befor
   const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 300);
-  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"),
                        doctest::Contains("is incomplete, because the recorder could not keep up"), haptics::FileError);
   CHECK(salvage(folder / "t.trace") == 300);
 }
@@ -159,8 +159,8 @@ TEST_CASE("recorder: a full disk is reported once, in one sentence, and the loop
     result = recorder.finish();
   }
   CHECK(result.problem.find("the recording failed after ") == 0);
-  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
-                       doctest::Contains("is incomplete, because it has no end block"), haptics::FileError);
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is incomplete, because it has no end block"),
+                       haptics::FileError);
   std::uint64_t cycles = 0;
   haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
   for (haptics::TraceSample sample; reader.next(sample);) ++cycles;
@@ -173,8 +173,8 @@ TEST_CASE("recorder: a killed program leaves its cycles in a file that is recogn
     haptics::TraceWriter writer(folder / "t.trace", paper_header());
     for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) writer.add(numbered(cycle));
   }  // finish() is not called, as if the program was killed here
-  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
-                       doctest::Contains("is incomplete, because it has no end block"), haptics::FileError);
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is incomplete, because it has no end block"),
+                       haptics::FileError);
   CHECK(salvage(folder / "t.trace") == 768);  // three complete blocks of 256 samples
 }
 

@@ -19,6 +19,7 @@
 #include "haptics/gate/gate_feel.h"
 #include "tests/app/lessons/replay/lesson_trace.h"
 #include "tests/support/gates.h"
+#include "tests/support/short_trace.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::lessons;

@@ -16,6 +16,7 @@
 #include "tests/app/lessons/report/constructed_history.h"
 #include "tests/app/lessons/report/page_parts.h"
 #include "tests/support/gates.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::haptics;

@@ -8,6 +8,7 @@
 #include "haptics/files/file_error.h"
 #include "haptics/loop/replay.h"
 #include "tests/app/lessons/simulated_driver/lessons.h"
+#include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/whole_campaign.h"
 
