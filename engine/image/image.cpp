@@ -8,18 +8,6 @@
 
 namespace gearshift::engine {
 
-Image crop(const Image& image, int x, int y, int width, int height) {
-  if (x < 0 || y < 0 || width < 1 || height < 1 || width > image.width - x || height > image.height - y) {
-    throw std::invalid_argument("crop: the rectangle is not inside the image");
-  }
-  Image part{width, height, {}};
-  part.rgba.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int row = y; row < y + height; ++row) {
-    part.rgba.insert(part.rgba.end(), image.pixel(x, row), image.pixel(x, row) + 4L * width);
-  }
-  return part;
-}
-
 Image side_by_side(const Image& left, const Image& right) {
   if (left.height != right.height) throw std::invalid_argument("side_by_side: the images differ in height");
   Image both{left.width + right.width, left.height, {}};

@@ -21,10 +21,8 @@ struct Image {
 
 inline constexpr int kMaxImageSide = 16384;  // [px] limit for images that are read
 
-// write_png() and read_png() throw std::runtime_error with one sentence that names file and reason. write_png()
-// replaces the file atomically.
+// Replaces the file atomically. Throws std::runtime_error with one sentence that names file and reason.
 void write_png(const std::filesystem::path& file, const Image& image);
-Image read_png(const std::filesystem::path& file);
 
 // encoded_size() and decode_image() take the bytes of a PNG or JPEG file and reject other formats. They throw
 // std::runtime_error with only the reason. encoded_size() reads only the header, so a caller can check the size before
@@ -34,10 +32,6 @@ struct ImageSize {
 };
 ImageSize encoded_size(std::span<const std::uint8_t> bytes);
 Image decode_image(std::span<const std::uint8_t> bytes);
-
-// Returns the part of the image inside the rectangle. Throws std::invalid_argument unless the rectangle lies inside the
-// image.
-Image crop(const Image& image, int x, int y, int width, int height);
 
 // Places two images of equal height next to each other, to show a stereo pair on a desktop. Throws
 // std::invalid_argument if the heights differ.

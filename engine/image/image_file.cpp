@@ -57,19 +57,6 @@ void check_shape(const Image& image) {
   }
 }
 
-std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw std::runtime_error(error.message());
-  if (size > kMaxImageBytes) throw std::runtime_error("the file is too large");
-  std::ifstream in(file, std::ios::binary);
-  std::vector<std::uint8_t> bytes(size);
-  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    throw std::runtime_error("the file cannot be read");
-  }
-  return bytes;
-}
-
 // Devices and pipes (/dev/null, /dev/stdout) are written to, never replaced.
 bool is_device_or_pipe(const std::filesystem::path& file) {
   std::error_code unknown;
@@ -115,14 +102,6 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     throw std::runtime_error(fmt::format("{}: the picture cannot be written ({})", file.string(),
                                          system != nullptr ? system->code().message() : e.what()));
   }
-}
-
-Image read_png(const std::filesystem::path& file) try {
-  const std::vector<std::uint8_t> bytes = file_bytes(file);
-  if (!is_png(bytes)) throw std::runtime_error("the file is not a PNG picture");
-  return decode_image(bytes);
-} catch (const std::exception& e) {
-  throw std::runtime_error(fmt::format("{}: the picture cannot be read ({})", file.string(), e.what()));
 }
 
 ImageSize encoded_size(std::span<const std::uint8_t> bytes) {

@@ -8,6 +8,7 @@
 
 #include "engine/light/enclosure.h"
 #include "tests/picture/cabin_rig.h"
+#include "tests/support/pictures.h"
 
 using namespace gearshift::cabin;
 using namespace gearshift::engine;

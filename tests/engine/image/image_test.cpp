@@ -1,4 +1,4 @@
-// Writes, reads, crops, joins and compares images, and reads files that are not images.
+// Writes, reads, joins and compares images, and reads files that are not images.
 #include "engine/image/image.h"
 
 #include <fcntl.h>
@@ -14,6 +14,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/pictures.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::engine;
@@ -45,11 +46,6 @@ Image numbered(int width, int height, std::uint8_t picture = 0) {
 std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_bytes(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 std::uint32_t big_endian(const std::vector<std::uint8_t>& bytes, std::size_t at) {
@@ -134,7 +130,7 @@ TEST_CASE("a write replaces the file and leaves no other file; a failed write le
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
 }
 
-TEST_CASE("a file that is not a PNG is rejected with one sentence that names it") {
+TEST_CASE("bytes that are not a whole picture are rejected with one reason") {
   TempFolder folder;
   write_png(folder / "good.png", noise(8, 8, 3));
   const std::vector<std::uint8_t> good = file_bytes(folder / "good.png");
@@ -148,14 +144,11 @@ TEST_CASE("a file that is not a PNG is rejected with one sentence that names it"
                                              {good.begin(), good.end() - 40},
                                              huge};
   for (const std::vector<std::uint8_t>& bytes : files) {
-    write_bytes(folder / "bad.png", bytes);
-    const std::string reason = rejection([&] { read_png(folder / "bad.png"); });
+    const std::string reason = rejection([&] { decode_image(bytes); });
     CAPTURE(reason);
-    CHECK(reason.starts_with((folder / "bad.png").string() + ": "));
+    CHECK_FALSE(reason.empty());
     CHECK(reason.find('\n') == std::string::npos);
   }
-  CHECK_FALSE(rejection([&] { read_png(folder / "none.png"); }).empty());
-  CHECK_FALSE(rejection([&] { read_png(folder.path()); }).empty());
 }
 
 TEST_CASE("the size of an encoded picture is known without its pixels") {
@@ -166,23 +159,6 @@ TEST_CASE("the size of an encoded picture is known without its pixels") {
   CHECK(encoded_size(bytes).width == 9);
   CHECK(encoded_size(bytes).height == 4);
   CHECK_THROWS_AS(decode_image(bytes), std::runtime_error);
-}
-
-TEST_CASE("a crop has the pixels of its rectangle, which must lie inside the image") {
-  const Image image = numbered(20, 10);
-  const Image part = crop(image, 7, 2, 5, 6);
-  REQUIRE(part.width == 5);
-  REQUIRE(part.rgba.size() == 4 * 5 * 6);
-  for (int y = 0; y < 6; ++y) {
-    for (int x = 0; x < 5; ++x) {
-      CHECK(part.pixel(x, y)[0] == x + 7);
-      CHECK(part.pixel(x, y)[1] == y + 2);
-    }
-  }
-  CHECK(crop(image, 0, 0, 20, 10).rgba == image.rgba);
-  const int outside[][4] = {{-1, 0, 2, 2}, {0, -1, 2, 2}, {19, 0, 2, 1},
-                            {0, 9, 1, 2},  {0, 0, 0, 1},  {5, 5, std::numeric_limits<int>::max(), 1}};
-  for (const auto& r : outside) CHECK_THROWS_AS(crop(image, r[0], r[1], r[2], r[3]), std::invalid_argument);
 }
 
 TEST_CASE("two images are placed side by side, the left one on the left") {

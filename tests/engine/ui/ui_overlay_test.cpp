@@ -11,6 +11,7 @@
 #include "engine/ui/ui_style.h"
 #include "tests/engine/ui/ui_raster.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/pictures.h"
 
 using namespace gearshift::engine;
 using namespace gearshift::test;

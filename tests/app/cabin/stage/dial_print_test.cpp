@@ -13,6 +13,7 @@
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/driveline.h"
 #include "tests/support/gates.h"
+#include "tests/support/pictures.h"
 
 namespace gearshift::test {
 namespace {
@@ -242,23 +243,22 @@ TEST_CASE("the speedometer has a number and a tick wherever the needle points at
   const Pictures metric = dials_of(car_with(600.0, 50.0)),
                  miles = dials_of(car_with(600.0, 50.0, vehicle::SpeedUnit::mph));
   // The unit's name, below the middle.
-  CHECK(engine::difference(engine::crop(metric.reflects, 908, 436, 200, 40),
-                           engine::crop(miles.reflects, 908, 436, 200, 40))
-            .worst > 100);
+  CHECK(engine::difference(crop(metric.reflects, 908, 436, 200, 40), crop(miles.reflects, 908, 436, 200, 40)).worst >
+        100);
 }
 
 TEST_CASE("a print changes the two dials and nothing beside them") {
   const Pictures filed = print_of(cabin::Stage(cabin(), GEARSHIFT_ASSETS "/models"));
   const Pictures diesel = dials_of(car_with(4750.0 * kRpm));
-  const auto others = [](const engine::Image& picture) { return engine::crop(picture, 1344, 0, 704, 1024); };
-  const auto below = [](const engine::Image& picture) { return engine::crop(picture, 0, 672, 1344, 352); };
+  const auto others = [](const engine::Image& picture) { return crop(picture, 1344, 0, 704, 1024); };
+  const auto below = [](const engine::Image& picture) { return crop(picture, 0, 672, 1344, 352); };
   for (const auto& [one, other] :
        {std::pair(&filed.reflects, &diesel.reflects), std::pair(&filed.glows, &diesel.glows)}) {
     CHECK(engine::difference(others(*one), others(*other), 0).worst == 0);
     CHECK(engine::difference(below(*one), below(*other), 0).worst == 0);
     // The face between hub and numbers, and the rim: as in the model's file.
-    const auto face = [](const engine::Image& picture) { return engine::crop(picture, 300, 180, 72, 72); };
-    const auto rim = [](const engine::Image& picture) { return engine::crop(picture, 0, 280, 16, 100); };
+    const auto face = [](const engine::Image& picture) { return crop(picture, 300, 180, 72, 72); };
+    const auto rim = [](const engine::Image& picture) { return crop(picture, 0, 280, 16, 100); };
     CHECK(engine::difference(face(*one), face(*other), 0).worst <= 1);
     CHECK(engine::difference(rim(*one), rim(*other), 0).worst == 0);
   }
