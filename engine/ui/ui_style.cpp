@@ -138,7 +138,11 @@ ImU32 with_alpha(ImU32 colour, float alpha) {
 void apply_ui_style(float scale) {
   ImGui::GetIO().Fonts->Clear();
   for (const FontFile& font : kFonts) load_font(font, scale);
-  ImGui::GetIO().Fonts->Build();
+  // Builds the atlas in the format that the overlay reads. Otherwise Dear ImGui 1.92 would build it again for the overlay,
+  // and drop the id that the texture has by then.
+  unsigned char* coverage = nullptr;
+  int width = 0, height = 0;
+  ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&coverage, &width, &height);
   ImGuiStyle style;
   ImGui::StyleColorsDark(&style);
   set_sizes(style);
