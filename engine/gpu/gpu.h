@@ -36,8 +36,8 @@ struct GpuConfig {
 struct GpuTraits {
   std::string name;    // device name
   std::string driver;  // driver name and version, as reported
-  // Software driver. Gets no anisotropic filtering: with it, lavapipe of Mesa 22.3 and 25.0 takes seconds for a picture,
-  // and that of 25.0 leaves pixels black.
+  // Software driver. Gets no anisotropic filtering: with it, lavapipe takes 25 times as long in Mesa 22.3, and more than
+  // a second for a picture in 25.0, which also leaves pixels black.
   bool is_cpu = false;
   bool layered_vertex = false;       // a vertex shader can select the layer, so one pass can draw both eyes
   bool four_samples = false;         // 4x multisampling of colour and depth
