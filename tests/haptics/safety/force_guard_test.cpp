@@ -91,7 +91,8 @@ TEST_CASE("saturation is reported for each force beyond the device") {
   CHECK(guard.guard(wanting({0.0, 31.8})).saturated);
 }
 
-TEST_CASE("the motors and the device's springs together stay within the device, and the motors never push against them") {
+TEST_CASE(
+    "the motors and the device's springs together stay within the device, and the motors never push against them") {
   ForceGuard guard = running_guard();
   const auto settled = [&](double force, double spring) {
     GuardInput in = wanting({0.0, force});
