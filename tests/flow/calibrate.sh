@@ -23,7 +23,7 @@ answers() { # takes the family
   done
 }
 calibrate() {
-  answers "$1" | with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
+  answers "$1" | with_stick --realtime --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
 }
 calibrated=sidewinder # only one family, because each takes most of a minute
 is_full_run && calibrated=$families

@@ -57,7 +57,7 @@ struct Options {
   std::vector<double> unplug_at, replug_at, stop_at, continue_at;
   std::vector<std::string> faults, command;
   std::filesystem::path log, orders;
-  bool own_power = false;
+  bool own_power = false, realtime = false;
 };
 
 const std::map<std::string, void (*)(EmulatedFaults&)> kFaults{
@@ -146,7 +146,8 @@ class Emulation {
   int status_ = 0;
 };
 
-// Where it is permitted, all threads of the emulation have a real-time priority, because a device never waits for a CPU.
+// Where it is permitted, all threads of the emulation have a real-time priority, because a device never waits for a CPU. Only
+// on request, because it takes the time from the picture of a software renderer.
 void never_wait() {
   const sched_param above_program{.sched_priority = 90};
   (void)sched_setscheduler(0, SCHED_FIFO, &above_program);
@@ -348,12 +349,13 @@ int run(int count, char** arguments) {
   each(cli.add_option("--continue-at", options.continue_at, "[s] SIGCONT"));
   cli.add_flag("--own-power", options.own_power,
                "the stick has its own power supply: after an unplug its effects run to their end");
+  cli.add_flag("--realtime", options.realtime, "with a real-time priority, if permitted");
   cli.add_option("--log", options.log, "log file of all messages to the stick: time [s] and message per line");
   cli.add_option("--orders", options.orders,
                  "pipe with one order per line: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
   cli.add_option("program", options.command, "program and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
-  never_wait();
+  if (options.realtime) never_wait();
   return Emulation(options).run();
 }
 
