@@ -87,8 +87,9 @@ inline constexpr double kDeviceWallRate = 4000.0;  // [Hz] lowest sampling rate 
 //
 // A new setting of the device walls (set_device_walls) takes effect with the same delay as a force. The walls
 // themselves respond without delay: they are a spring on the true position. Its force is sampled and held at
-// kDeviceWallRate, computed from the depth in the middle of each sample, and limited by the motors. The encoder
-// resolution that a real stick would use for its walls is not modelled.
+// kDeviceWallRate, and computed from the depth in the middle of each sample. Each axis's spring yields at the motors' peak
+// force, like a PID condition at its saturation, and the motors limit the sum with the command. The encoder resolution
+// that a real stick would use for its walls is not modelled.
 //
 // With period_jitter each period lasts a whole number of nanoseconds between T (1 - jitter) and T (1 + jitter),
 // independent of the loop's clock. A reading's time_ns includes this jitter.

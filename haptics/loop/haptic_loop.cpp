@@ -280,18 +280,11 @@ void HapticLoop::send_device_walls(double ramp) noexcept {
   device_.set_device_walls(walls);
 }
 
-// Force of the device's springs at the current lever position [N].
+// Force that the device's springs want at the current lever position, also beyond what the motors can [N].
 dvec2 HapticLoop::device_wall_force(const LeverWalls& walls) const noexcept {
   if (walls.stiffness_fraction == 0.0) return {0.0, 0.0};
   const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
-  const dvec2 wanted = walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
-  return glm::clamp(wanted, -spec_.max_force, spec_.max_force);
-}
-
-// True if the wanted force exceeds the device's limit: the loop's part by itself, or together with the device walls.
-bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
-  const dvec2 all = glm::abs(command.force + device_wall_force(walls_)), max_force = spec_.max_force;
-  return command.saturated || all.x > max_force.x || all.y > max_force.y;
+  return walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
 }
 
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
@@ -311,7 +304,7 @@ dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
     if (in_wall) damping[i] += walls_.damping_fraction * spec_.device_wall_damping[i];
   }
   const dvec2 stiffness{spec_.axis_x.stiffness, spec_.axis_y.stiffness};
-  const dvec2 hold_force = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : actuator_force_;
+  const dvec2 hold_force = command.saturated ? -(wanted_force() + device_wall_force(walls_)) : actuator_force_;
   return hold_force + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
@@ -334,7 +327,7 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
       device_wall_stiffness_ > 0.0 ? device_wall_stiffness_ * period_ * glm::length(motion_.velocity) : 0.0;
   const bool falls_short = motion_.fresh && glm::length(expected + actuator_force_) > kShortfall + moves;
   sent_[cycle_ % sent_.size()] = {command.force, walls_};
-  unsaturated_time_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_time_ + period_;
+  unsaturated_time_ = command.saturated || falls_short ? 0.0 : unsaturated_time_ + period_;
 }
 
 // Lowers the stiffness if the lever chatters on a wall. If a lower stiffness does not help, the guard enters the state

@@ -102,7 +102,6 @@ class HapticLoop {
   void drive(const GuardOutput& command) noexcept;
   void send_device_walls(double ramp) noexcept;
   glm::dvec2 device_wall_force(const LeverWalls& walls) const noexcept;
-  bool is_saturated(const GuardOutput& command) const noexcept;
   glm::dvec2 estimated_push(const GuardOutput& command) const noexcept;
   void account_force_flow(const GuardOutput& command) noexcept;
   void watch_push() noexcept;

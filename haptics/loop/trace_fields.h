@@ -52,7 +52,7 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("simulated", simulated);
 }
 
-// The first parameter of [loop], the other sections, and the rest of [loop].
+// The first parameter of [loop], the other sections, and the rest of [loop]: the hash of a drive covers this order.
 constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
   const auto visit_loop = [&](bool first) {
     each_parameter(config, [&](const auto& parameter, auto& value) {

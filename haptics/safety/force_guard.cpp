@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "haptics/joystick/finite.h"
 
@@ -81,7 +82,8 @@ GuardOutput ForceGuard::compute_output(const GuardInput& in, dvec2 travel) noexc
   const dvec2 wanted = glm::clamp(apply_passivity_control(in, travel), lowest, highest);
   const dvec2 slewed = glm::clamp(wanted, last_force_ - config_.slew, last_force_ + config_.slew);
   last_force_ = glm::clamp(apply_energy_bounding(slewed, travel), -max_force_, max_force_);
-  const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
+  const auto exceeds = [this](dvec2 force) { return glm::any(glm::greaterThan(glm::abs(force), max_force_)); };
+  const bool saturated = exceeds(in.force) || exceeds(in.force + in.beside);
   const double ramp = advance_ramp();
   return {last_force_ * ramp, saturated, ramp};
 }

@@ -74,7 +74,7 @@ static_assert(DescribesAll<GuardConfig>);
 
 struct GuardInput {
   glm::dvec2 force{0.0};     // [N] wanted
-  glm::dvec2 beside{0.0};    // [N] of the device's own springs; the motors make the sum
+  glm::dvec2 beside{0.0};    // [N] wanted of the device's own springs, which the same motors render
   glm::dvec2 position{0.0};  // [m] newest accepted
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // this cycle's reading is fresh
@@ -84,7 +84,7 @@ struct GuardInput {
 
 struct GuardOutput {
   glm::dvec2 force{0.0};   // [N] commanded
-  bool saturated = false;  // the wanted force exceeded the device's maximum on an axis
+  bool saturated = false;  // the wanted force, alone or with the device's springs, exceeded the maximum on an axis
   double ramp = 0.0;       // [1] 0 to 1, fraction of the force that is output; 0 in states without force
 };
 

@@ -103,10 +103,8 @@ std::string norms_text(std::span<const Norm> norms) {
       "# and the largest distance from them that passes. `gearshift bench --norms FILE` wrote this file.\n";
   for (const Norm& norm : norms) {
     text += fmt::format(
-        "\n[[norm]]\nlesson = {}\nmode = {}\ncar = {}\npath_length_m = {}\nclutch_lead_s = {}\nclutch_lag_s = "
-        "{}\nlimit "
-        "= "
-        "{}\n",
+        "\n[[norm]]\nlesson = {}\nmode = {}\ncar = {}\npath_length_m = {}\nclutch_lead_s = {}\n"
+        "clutch_lag_s = {}\nlimit = {}\n",
         haptics::toml_string(norm.lesson), haptics::toml_string(to_string(norm.mode)), haptics::toml_string(norm.car),
         haptics::toml_number(norm.path_length), haptics::toml_number(norm.clutch_lead),
         haptics::toml_number(norm.clutch_lag), haptics::toml_number(norm.limit));

@@ -1,7 +1,7 @@
 // Figures of how smoothly a lesson was driven, and how far they are from those of practised drivers.
 //
-// A norm describes practised simulated drivers in one lesson, mode and car. It stands in norms/simulated.toml beside the lesson's
-// file, where `gearshift bench --norms` writes it. Lessons without a norm are judged by their errors only.
+// A norm describes practised simulated drivers in one lesson, mode and car. It stands in norms/simulated.toml beside the
+// lesson's file, where `gearshift bench --norms` writes it. Lessons without a norm are judged by their errors only.
 #pragma once
 
 #include <array>

@@ -145,21 +145,23 @@ TEST_CASE("pressed into a wall without saturation: within 3 %, whichever part re
 // the hand's spring force has fallen to this value. The estimate is the force that the wall would exert at this depth
 // with stronger motors. It exceeds the push, so the warning comes early.
 TEST_CASE("with saturated motors: never estimated below the push, and the warning of an estimated push comes") {
-  for (const double stiffness : {600.0, 700.0, 1400.0}) {
-    ScriptedHand hand({}, {{{0.0, 0.0737}, 1.0, 5.0}}, 0.001);
-    Sensorless rig(lever_of({0.15, 10.0, stiffness}), hand);
-    rig.run(3000);
-    const Means means = over(rig, 50);
-    const double depth = rig.device.lever.true_position().y - kWall;
-    print(
-        "hand of " + std::to_string(static_cast<int>(stiffness)) + " N/m, " + std::to_string(1e3 * depth) + " mm deep",
-        means);
-    CHECK(depth == doctest::Approx(0.0637 - 31.7 / stiffness).epsilon(0.05));
-    CHECK((rig.loop.snapshot().flags & kFlagSaturated) != 0);
-    CHECK(means.truth > 0.99 * 31.7);
-    CHECK(means.estimate >= means.truth);
-    CHECK(((rig.loop.snapshot().flags & kFlagOverPush) != 0) == (means.estimate > 60.0));
-    CHECK(rig.estimated);
+  for (const double own : {0.0, 1000.0, 3000.0}) {
+    for (const double stiffness : {600.0, 700.0, 1400.0}) {
+      ScriptedHand hand({}, {{{0.0, 0.0737}, 1.0, 5.0}}, 0.001);
+      Sensorless rig(lever_of({0.15, 10.0, stiffness}, own > 0.0 ? 3 : 0, own), hand);
+      rig.run(3000);
+      const Means means = over(rig, 50);
+      const double depth = rig.device.lever.true_position().y - kWall;
+      print(std::string(own > 0.0 ? "partly the device's, " : "") + "hand of " +
+                std::to_string(static_cast<int>(stiffness)) + " N/m, " + std::to_string(1e3 * depth) + " mm deep",
+            means);
+      CHECK(depth == doctest::Approx(0.0637 - 31.7 / stiffness).epsilon(0.05));
+      CHECK((rig.loop.snapshot().flags & kFlagSaturated) != 0);
+      CHECK(means.truth > 0.99 * 31.7);
+      CHECK(means.estimate >= means.truth);
+      CHECK(((rig.loop.snapshot().flags & kFlagOverPush) != 0) == (means.estimate > 60.0));
+      CHECK(rig.estimated);
+    }
   }
 }
 

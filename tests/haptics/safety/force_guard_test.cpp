@@ -89,6 +89,16 @@ TEST_CASE("saturation is reported for each force beyond the device") {
   ForceGuard guard = running_guard();
   CHECK_FALSE(guard.guard(wanting({31.6, -31.6})).saturated);
   CHECK(guard.guard(wanting({0.0, 31.8})).saturated);
+  GuardInput in = wanting({0.0, 28.0});
+  in.beside = {0.0, 3.0};  // of the device's springs
+  CHECK_FALSE(guard.guard(in).saturated);
+  in.beside = {0.0, 4.0};
+  CHECK(guard.guard(in).saturated);
+  in.beside = {0.0, -4.0};
+  CHECK_FALSE(guard.guard(in).saturated);
+  in = wanting({0.0, 0.0});
+  in.beside = {0.0, -32.0};
+  CHECK(guard.guard(in).saturated);
 }
 
 TEST_CASE(
