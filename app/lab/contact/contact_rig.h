@@ -22,9 +22,9 @@ struct ContactCase {
 };
 
 // Vibration of a handle at 125 Hz above which every finger is taken to feel it [m/s^2]; at other frequencies fingers feel
-// less, so a broadband rms over it is an upper bound. It is a choice, because the table of ISO 13091-2 was not at hand. Some hands feel a cylinder that they grasp move by less than 0.01 um at 150 to 200 Hz, which is
-// 0.01 m/s^2 (A. J. Brisben, S. S. Hsiao, K. O. Johnson. Detection of Vibration Transmitted Through an Object Grasped in
-// the Hand. 1999).
+// less, so a broadband rms over it is an upper bound. It is a choice, because the table of ISO 13091-2 was not at hand.
+// Some hands feel a cylinder that they grasp move by less than 0.01 um at 150 to 200 Hz, which is 0.01 m/s^2 (A. J.
+// Brisben, S. S. Hsiao, K. O. Johnson. Detection of Vibration Transmitted Through an Object Grasped in the Hand. 1999).
 inline constexpr double kFingerThreshold = 0.2;
 
 struct ContactResult {
