@@ -121,7 +121,7 @@ TEST_CASE("STOP comes before the other commands, whatever becomes of them") {
   CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);
   rig.session.apply(PanelCommands{Arm{}, Stop{}});
   rig.go(2.0);
-  CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);  // STOP also comes before an arming before it
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);  // an arming before STOP is cancelled
 }
 
 TEST_CASE("a change of hand also keeps a restart's configuration and the tuning after it") {
