@@ -12,6 +12,7 @@
 #include "app/lessons/history/user_text.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
+#include "app/ui/panel/panel_keys.h"
 #include "app/ui/panel/text_lines.h"
 
 namespace gearshift::ui {
@@ -258,7 +259,7 @@ void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coa
   ImGui::SameLine(4.6f * engine::ui_em() - ImGui::GetStyle().WindowPadding.x);  // aligned with the lists above
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight());
-  if (std::exchange(takes_keyboard_, false)) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(takes_keyboard_, false)) give_keyboard_to_next();
   const bool entered =
       ImGui::InputTextWithHint("##learner", kNoLearner, name_.data(), name_.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);

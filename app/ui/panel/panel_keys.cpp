@@ -59,6 +59,13 @@ bool begin_child(const char* name, ImVec2 size, ImGuiWindowFlags flags) {
 #endif
 }
 
+// Dear ImGui 1.90 would ignore the control if no window had the focus, and update_keyboard_focus() takes it away after a
+// click.
+void give_keyboard_to_next() {
+  ImGui::SetWindowFocus();
+  ImGui::SetKeyboardFocusHere();
+}
+
 // Reads the context's state instead of WantCaptureKeyboard, which ImGui updates only in NewFrame.
 bool panel_has_keyboard() {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();

@@ -13,6 +13,9 @@ void update_keyboard_focus(const char* first_window, bool shown);
 // Begins a child window whose controls the arrow keys reach as if they were its parent's.
 bool begin_child(const char* name, ImVec2 size, ImGuiWindowFlags flags = 0);
 
+// Gives the keyboard to the control that is drawn next.
+void give_keyboard_to_next();
+
 // Call between two frames. True if the panel uses the next key press.
 bool panel_has_keyboard();
 
