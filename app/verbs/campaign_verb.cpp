@@ -1,5 +1,6 @@
 // gearshift campaign: checks laws that must always hold on random gates, hands, rates, delays and tunings.
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -41,6 +43,13 @@ constexpr const char* kCampaignFooter =
     "and SEED.txt, which names the broken laws. gearshift replay also prints these laws, with a command that\n"
     "reproduces the failure. --case also writes a trace and, if a law is broken, a text file that names the law.\n"
     "\n"
+    "A large campaign can be split into shards, which take about the same time on equal machines. --merge continues "
+    "with\n"
+    "their results, and gives the result of one run bit for bit. With GNU parallel, and as a Slurm array:\n"
+    "  parallel gearshift campaign --shard {}/8 --threads 1 --out part/{} ::: 1 2 3 4 5 6 7 8\n"
+    "  sbatch --array=1-8 --wrap 'gearshift campaign --shard $SLURM_ARRAY_TASK_ID/8 --out part/$SLURM_ARRAY_TASK_ID'\n"
+    "  gearshift campaign --merge part/* --out whole\n"
+    "\n"
     "Exit code: 0 if every law holds; 1 if a law is broken or the campaign failed or was stopped; 2 if the command\n"
     "line is invalid.\n"
     "\n"
@@ -50,8 +59,21 @@ constexpr const char* kCampaignFooter =
 
 struct CampaignArguments {
   lab::CampaignPlan plan;
-  std::optional<std::uint64_t> number;  // number of the only case to run; empty: all cases
+  std::optional<std::uint64_t> number;        // number of the only case to run; empty: all cases
+  std::vector<std::filesystem::path> shards;  // folders of all shards, to be merged; empty: nothing is merged
 };
+
+// "2/8": shard 2 of 8. Empty if the text is anything else.
+std::optional<lab::CampaignShard> read_shard(const std::string& text) {
+  lab::CampaignShard shard;
+  const char *at = text.data(), *end = at + text.size();
+  const auto [slash, bad_number] = std::from_chars(at, end, shard.number);
+  if (bad_number != std::errc() || slash == end || *slash != '/') return std::nullopt;
+  const auto [last, bad_count] = std::from_chars(slash + 1, end, shard.count);
+  const bool is_valid = bad_count == std::errc() && last == end && shard.number >= 1 && shard.number <= shard.count &&
+                        shard.count <= lab::kMaxShards;
+  return is_valid ? std::optional(shard) : std::nullopt;
+}
 
 int run_one_case(const CampaignArguments& arguments, const std::vector<haptics::GateLayout>& shipped) {
   const int gates = static_cast<int>(shipped.size());
@@ -84,8 +106,7 @@ int report_interruption(base::ProgressBar& bar, std::string_view where) {
   return 1;
 }
 
-int run_cases(lab::CampaignPlan plan, const std::vector<haptics::GateLayout>& shipped) {
-  plan.program = base::program_name() + " " + commit_text();
+int run_cases(const lab::CampaignPlan& plan, const std::vector<haptics::GateLayout>& shipped) {
   const base::StopSignals signals;
   base::ProgressBar bar;
   const auto show = [&](std::string_view part, const lab::CampaignStatus& status) {
@@ -101,6 +122,7 @@ int run_cases(lab::CampaignPlan plan, const std::vector<haptics::GateLayout>& sh
   const lab::CampaignSummary summary = lab::summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
   haptics::write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
   bar.clear();
+  if (plan.shard) base::print_out("shard {} of {}: ", plan.shard->number, plan.shard->count);
   base::print_out("{}", campaign_text(summary));
   std::fflush(stdout);
   const std::size_t failed = lab::record_failures(
@@ -115,7 +137,11 @@ int run_cases(lab::CampaignPlan plan, const std::vector<haptics::GateLayout>& sh
 int run_campaign_verb(const CampaignArguments& arguments) {
   const std::vector<haptics::GateLayout> shipped = lab::shipped_layouts(base::shipped_folder("gates"));
   base::make_folder(arguments.plan.folder);
-  return arguments.number ? run_one_case(arguments, shipped) : run_cases(arguments.plan, shipped);
+  if (arguments.number) return run_one_case(arguments, shipped);
+  lab::CampaignPlan plan = arguments.plan;
+  plan.program = base::program_name() + " " + commit_text();
+  if (!arguments.shards.empty()) lab::merge_shards(plan, arguments.shards, shipped);
+  return run_cases(plan, shipped);
 }
 
 }  // namespace
@@ -139,10 +165,28 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--threads", arguments->plan.threads, "number of threads; does not affect the results")
       ->check(whole_number(1, lab::kMaxThreads))
       ->capture_default_str();
-  verb->add_option("--case", arguments->number, "run only case K and record it as DIR/case_K.trace")
-      ->check(whole_number())
-      ->excludes(shifts)
-      ->type_name("K");
+  CLI::Option* number =
+      verb->add_option("--case", arguments->number, "run only case K and record it as DIR/case_K.trace")
+          ->check(whole_number())
+          ->excludes(shifts)
+          ->type_name("K");
+  CLI::Option* shard =
+      verb->add_option_function<std::string>(
+              "--shard", [arguments](const std::string& text) { arguments->plan.shard = read_shard(text); },
+              "run only shard I of N, I from 1")
+          ->check(CLI::Validator(
+              [](const std::string& text) {
+                return read_shard(text)
+                           ? std::string()
+                           : fmt::format("\"{}\" is not I/N, from 1/N to N/N, with N up to {}", text, lab::kMaxShards);
+              },
+              ""))
+          ->excludes(number)
+          ->type_name("I/N");
+  verb->add_option("--merge", arguments->shards, "folders of all shards, whose results are merged")
+      ->excludes(number)
+      ->excludes(shard)
+      ->type_name("DIR");
   verb->callback([arguments, &action] { action = [arguments] { return run_campaign_verb(*arguments); }; });
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests the stability campaign as a user runs it: stopped in the middle and resumed; a single case; a replay of its
-# trace.
+# Tests the stability campaign as a user runs it: stopped in the middle and resumed; in shards; a single case; a
+# replay of its trace.
 # Usage: campaign.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -28,6 +28,27 @@ cp -r once again
 check "stopped in the middle of a line" cut_short again/cases.csv
 check "resumed" campaign --out again --threads 1
 check "with the same result" same once again
+shards() { # runs shards of the campaign, as gearshift campaign --help shows it
+  parallel --will-cite "$gearshift" campaign --seed 11 --shifts 200 --shard {}/3 --threads 1 --out part/{} ::: "$@" >shards.txt
+}
+merged() { rm -rf merged && campaign --merge part/* --out merged --threads 1; }
+not_merged() { ! merged && [ "$(wc -l <err)" = 1 ] && grep -q -- "$1" err; }
+refuses() { # arguments: the reason, and the arguments of campaign
+  ! "$gearshift" campaign --shifts 200 --out twice "${@:2}" 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "$1" err
+}
+check "two of three shards by GNU parallel" shards 1 3
+check "each names itself" grep -q "^shard 3 of 3: " shards.txt
+check "the missing one is named" not_merged "shard 2 of 3 is missing"
+check "the third shard" shards 2
+check "a shard that was stopped" cut_short part/2/cases.csv
+check "is named" not_merged "part/2/cases.csv: shard 2 is not finished"
+check "and resumed" shards 2
+check "merged" merged
+check "the result is that of one run" same once merged
+check "in the order of the cases" cmp once/cases.csv merged/cases.csv
+check "a shard that is given twice is named" refuses "are both shard 1 of 3" --seed 11 --merge part/* part/1
+check "another seed's shards are refused" refuses "holds no shard of this campaign" --seed 12 --merge part/*
+check "a folder without a shard is refused" refuses "holds no shard of this campaign" --seed 11 --merge once
 # Too little memory for eight threads, but enough for three stacks of 1 GB and the rest of the program.
 if [ -z "${ASAN_OPTIONS-}${TSAN_OPTIONS-}" ]; then
   fewer() { (ulimit -s 1000000 -v 4000000 && campaign --out fewer --threads 8); }
@@ -100,6 +121,9 @@ check "a time beyond the drive's end is rejected" beyond
 cp one/case_1.trace broken/other.trace && cp broken/case_1.txt broken/other.txt
 check "a trace that is not named like a case is not taken for one" fails sh -c '"$1" replay broken/other.trace | grep violates' sh "$gearshift"
 
+for shard in 0/3 4/3 1 1/ /3 1/3x 1/10001; do
+  check "--shard $shard is rejected in a sentence" refused 2 "--shard" --shard $shard --out bad
+done
 for number in -1 99999999999999999999 1.5; do
   for option in --case --seed; do
     check "$option $number is rejected in a sentence" refused 2 "$option" $option $number --out bad

@@ -179,6 +179,12 @@ CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int s
   return drawn;
 }
 
+bool is_forbidden(const CampaignCase& drawn) noexcept {
+  const haptics::HapticConfig& config = drawn.haptics;
+  return config.estimator.window > 1 || config.contact.energy_control == haptics::EnergyControl::passivity_controller ||
+         config.guard.slew < 2.0;
+}
+
 double count_of(const CampaignCase& drawn) noexcept {
   return drawn.lever.encoder_counts > 0.0 ? kCountPerDegree / drawn.lever.encoder_counts : 0.0;
 }

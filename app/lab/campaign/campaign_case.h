@@ -68,6 +68,9 @@ std::uint64_t case_seed(std::uint64_t campaign_seed, std::uint64_t number) noexc
 // Draws a random case. The result is equal on every machine.
 CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int shipped_gates);
 
+// True if the loop must reject the configuration: it needs allow_unstable, or its slew limit is too low.
+bool is_forbidden(const CampaignCase& drawn) noexcept;
+
 // Size of an encoder count at the tip; 0 without an encoder. [m]
 double count_of(const CampaignCase& drawn) noexcept;
 

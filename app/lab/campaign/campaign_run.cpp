@@ -53,13 +53,6 @@ bool is_promised(const CampaignCase& drawn) {
   return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
 }
 
-// True if the loop must reject the configuration: it needs allow_unstable, or its slew limit is too low.
-bool is_forbidden(const CampaignCase& drawn) {
-  const haptics::HapticConfig& config = drawn.haptics;
-  return config.estimator.window > 1 || config.contact.energy_control == haptics::EnergyControl::passivity_controller ||
-         config.guard.slew < 2.0;
-}
-
 // True if this gear has a lockout that opens only after the lever has left another gear's column. A hand may return
 // before the lagging lever has left that column. The lockout is then rightly closed.
 bool has_detour(const haptics::Gate& gate, int gear) {

@@ -94,12 +94,11 @@ class LineReader {
   std::size_t at_ = 0;
 };
 
-// `before`: number of preceding lines. It limits the case number, because cases start in order and on at most
-// kMaxThreads threads.
-CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns, std::uint64_t before) {
+// `end`: the case number is below it.
+CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns, std::uint64_t end) {
   LineReader in(line, columns);
   CaseOutcome out;
-  in.number(out.number, std::uint64_t{0}, before + kMaxThreads - 1);
+  in.number(out.number, std::uint64_t{0}, end - 1);
   out.refused = in.text();
   in.number(out.shifts, 0, out.refused.empty() ? kCaseShifts : 0);
   in.number(out.clean, 0, out.shifts);
@@ -147,7 +146,7 @@ std::string first_line_of(std::string_view text) {
 
 }  // namespace
 
-CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : name_(file.string()) {
+CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of, int shards) : name_(file.string()) {
   const std::string head = "# " + of + "\n" + column_line();
   check_plain(file);
   file_.reset(std::fopen(name_.c_str(), "ab"));
@@ -164,21 +163,23 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
                     "--out",
                     name_, first_line_of(text), of));
   }
-  const std::size_t valid_size = text.empty() ? 0 : read_cases(text, head.size());
+  const std::size_t valid_size = text.empty() ? 0 : read_cases(text, head.size(), shards);
   std::error_code error;
   if (valid_size < old_size) std::filesystem::resize_file(file, valid_size, error);
   if (error) throw std::runtime_error(name_ + ": cannot be written (" + error.message() + ")");
   if (text.empty()) std::fputs(head.c_str(), file_.get());
 }
 
-// Reads the cases in the lines from `begin` into cases_. Returns the end position of the last complete line.
-std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
+// Reads the cases in the lines from `begin` into cases_. Returns the end position of the last complete line. Cases start
+// in order and on at most kMaxThreads threads, which limits the case number.
+std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin, int shards) {
   const std::string line = column_line();
   const std::vector<std::string_view> columns = fields_of(std::string_view(line).substr(0, line.size() - 1));
   int number = 3;  // line number; lines 1 and 2 are the header
   for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
     try {
-      CaseOutcome out = read_case(text.substr(begin, end - begin), columns, cases_.size());
+      CaseOutcome out = read_case(text.substr(begin, end - begin), columns,
+                                  (cases_.size() + kMaxThreads) * static_cast<std::uint64_t>(shards));
       const std::uint64_t of_case = out.number;
       if (!cases_.emplace(of_case, std::move(out)).second)
         throw std::runtime_error(fmt::format("case {} appears twice", of_case));

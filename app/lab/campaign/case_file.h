@@ -20,15 +20,16 @@ class CaseFile {
   // Reads the existing lines, drops an incomplete last line, and opens the file for appending. `of`: one line that
   // identifies the campaign (seed, gates, program). Throws std::runtime_error with one sentence, and leaves the file
   // unchanged, if the file belongs to a different campaign, is invalid, is being written by another program, or cannot
-  // be read or written. For an invalid file, the sentence names line, column, value and range. A case number is invalid
-  // if it exceeds the number of preceding lines by kMaxThreads or more.
-  CaseFile(const std::filesystem::path& file, const std::string& of);
+  // be read or written. For an invalid file, the sentence names line, column, value and range. `shards`: number of shards
+  // that share the cases. A case number is invalid if it exceeds the number of preceding lines, times `shards`, by
+  // kMaxThreads * shards or more.
+  CaseFile(const std::filesystem::path& file, const std::string& of, int shards = 1);
 
   const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
   void add(const CaseOutcome& outcome);  // Throws std::runtime_error
 
  private:
-  std::size_t read_cases(std::string_view text, std::size_t begin);
+  std::size_t read_cases(std::string_view text, std::size_t begin, int shards);
 
   struct Close {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }

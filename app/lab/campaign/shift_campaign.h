@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lab/campaign/campaign_shards.h"
 #include "app/lab/campaign/campaign_summary.h"
 
 namespace gearshift::lab {
@@ -19,10 +20,11 @@ struct CampaignPlan {
   std::uint64_t seed = 1;
   // Program and commit; uncommitted changes are not distinguished. A different program cannot resume the campaign.
   std::string program;
-  std::uint64_t shifts = 1'000'000;  // minimum number of tried shifts; cases are run completely and in order
-  std::filesystem::path folder;      // existing folder for cases.csv, with one line per case; empty: nothing is saved
-  int threads = 1;                   // at most kMaxThreads
-  double case_time_limit = 60.0;     // [s] of CPU time; a case normally takes 0.1 s
+  std::uint64_t shifts = 1'000'000;    // minimum number of tried shifts; cases are run completely and in order
+  std::filesystem::path folder;        // existing folder for cases.csv, with one line per case; empty: nothing is saved
+  int threads = 1;                     // at most kMaxThreads
+  double case_time_limit = 60.0;       // [s] of CPU time; a case normally takes 0.1 s
+  std::optional<CampaignShard> shard;  // runs only the shard's cases
 };
 
 struct CampaignStatus {
@@ -34,11 +36,18 @@ struct CampaignStatus {
 // function returns false, no more cases are started.
 using CampaignProgress = std::function<bool(const CampaignStatus& status)>;
 
-// Runs as many cases as are needed to try `plan.shifts` shifts, and returns their outcomes in order. Returns fewer
-// outcomes if stopped. Throws FileError, or std::runtime_error with one sentence if the folder holds a different
+// Runs as many cases as are needed to try `plan.shifts` shifts, or those of the shard, and returns their outcomes in
+// order. Returns fewer outcomes if stopped. Throws FileError, or std::runtime_error with one sentence if the folder holds a different
 // campaign or cannot be written.
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped,
                                         const CampaignProgress& progress);
+
+// Copies the cases of all shards to cases.csv in the plan's folder, from where drive_campaign() resumes the campaign: if
+// the guard has stopped cases, they tried fewer shifts, and a few more cases are needed. `folders`: one per shard, in any
+// order. Throws std::runtime_error with one sentence if a shard is missing, unfinished or given twice, if a folder holds
+// no shard of this campaign, or if a file cannot be read or written.
+void merge_shards(const CampaignPlan& plan, std::span<const std::filesystem::path> folders,
+                  std::span<const haptics::GateLayout> shipped);
 
 inline constexpr std::size_t kMaxTraces = 100;
 

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "app/lab/bench/rows/bench.h"
 #include "app/lab/campaign/broken_laws.h"
 #include "app/lab/campaign/campaign_car.h"
+#include "app/lab/campaign/campaign_shards.h"
 #include "app/lab/campaign/campaign_summary.h"
 #include "app/lab/campaign/case_file.h"
 #include "app/lab/campaign/shift_campaign.h"
@@ -117,6 +119,48 @@ TEST_CASE("the result does not depend on the number of threads, nor on where it 
   plan.seed = 2;
   CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}), doctest::Contains("belongs to another campaign"),
                        std::runtime_error);
+}
+
+// Each case goes to the shard with the least to do so far, so no shard has more to do than another by more than one case
+// (list scheduling: Graham, SIAM J. Appl. Math. 17 (1969) 416).
+TEST_CASE("shards share all cases, and are expected to take about the same time") {
+  constexpr int kShards = 4, kGates = 20;
+  const std::vector<int> shard_of = split_cases(5, 40'000, kShards, kGates);
+  std::array<double, kShards> cycles{};
+  std::uint64_t shifts = 0, last = 0;
+  for (std::uint64_t number = 0; number < shard_of.size(); ++number) {
+    const CampaignCase drawn = drawn_case(5, number, kGates);
+    REQUIRE((shard_of[number] >= 1 && shard_of[number] <= kShards));
+    if (is_forbidden(drawn)) continue;
+    last = static_cast<std::uint64_t>(drawn.shifts);
+    shifts += last;
+    cycles[static_cast<std::size_t>(shard_of[number] - 1)] += drawn.haptics.rate * (drawn.shifts > 0 ? 72.5 : 20.0);
+  }
+  CHECK((shifts >= 40'000 && shifts - last < 40'000));  // as many cases as are needed, and not one more
+  const auto [least, most] = std::minmax_element(cycles.begin(), cycles.end());
+  CHECK(*most - *least <= 4000.0 * 72.5);  // one case at the highest rate
+}
+
+TEST_CASE("the shards' outcomes are those of one campaign, and they take about the same number of cycles") {
+  CampaignPlan plan;
+  plan.seed = 11;
+  plan.shifts = 2000;
+  const std::vector<CaseOutcome> whole = drive_campaign(plan, layouts(), {});
+  std::vector<std::uint64_t> numbers;
+  std::array<double, 2> cycles{};
+  for (int number = 1; number <= 2; ++number) {
+    plan.shard = CampaignShard{number, 2};
+    for (const CaseOutcome& outcome : drive_campaign(plan, layouts(), {})) {
+      numbers.push_back(outcome.number);
+      cycles[static_cast<std::size_t>(number - 1)] += static_cast<double>(outcome.cycles);
+      REQUIRE(outcome.number < whole.size());
+      CHECK(outcome.cycles == whole[outcome.number].cycles);
+      CHECK(outcome.fastest == whole[outcome.number].fastest);
+    }
+  }
+  std::sort(numbers.begin(), numbers.end());
+  for (std::uint64_t number = 0; number < numbers.size(); ++number) CHECK(numbers[number] == number);
+  CHECK(std::abs(cycles[0] / cycles[1] - 1.0) < 0.25);
 }
 
 TEST_CASE("asked to stop, a campaign starts no more cases, and resumes from there") {
