@@ -2,6 +2,7 @@
 //
 // This work is based on:
 // Y. Shafranovich. RFC 4180, Common Format and MIME Type for Comma-Separated Values (CSV) Files. 2005
+// OWASP. CSV Injection
 #pragma once
 
 #include <algorithm>
@@ -36,20 +37,24 @@ class CsvTable {
   explicit CsvTable(const CsvFormat& format = {})
       : format_(format), text_(format.has_byte_order_mark ? "\ufeff" : "") {}
 
-  CsvTable& text(std::string_view field);
+  // A text that a spreadsheet would run as a formula gets an apostrophe in front, as OWASP advises. Lines are printable
+  // (haptics/files/printable.h).
+  CsvTable& text(std::string_view text);
   // Adding 0.0 removes the sign of a negative zero.
   CsvTable& number(std::floating_point auto value) {
     std::string digits = fmt::format("{:.{}g}", value + 0.0, kCsvDigits);
     if (format_.has_decimal_comma) std::replace(digits.begin(), digits.end(), '.', ',');
-    return text(digits);
+    return field(digits);
   }
-  CsvTable& number(std::integral auto value) { return text(fmt::format("{}", value)); }
+  CsvTable& number(std::integral auto value) { return field(fmt::format("{}", value)); }
   CsvTable& flag(bool on) { return text(on ? "1" : "0"); }
   CsvTable& texts(std::initializer_list<std::string_view> fields);
   void end();  // ends the line
   std::string take() && { return std::move(text_); }
 
  private:
+  CsvTable& field(std::string_view text);
+
   CsvFormat format_;
   std::string text_;
   bool first_ = true;  // true if the next field is the first in its line

@@ -1,5 +1,7 @@
 #include "app/base/html.h"
 
+#include "haptics/files/printable.h"
+
 namespace gearshift::base {
 namespace {
 
@@ -29,7 +31,7 @@ figcaption { color: #6b7785; font-size: 0.92rem; }
 
 std::string html_text(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : haptics::printable_lines(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

@@ -6,7 +6,7 @@
 
 namespace gearshift::base {
 
-std::string html_text(std::string_view text);  // escapes & < > "
+std::string html_text(std::string_view text);  // printable lines (haptics/files/printable.h); escapes & < > "
 std::string_view html_style();                 // CSS for screen and print
 
 }  // namespace gearshift::base

@@ -1,5 +1,8 @@
 #include "haptics/files/printable.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace gearshift::haptics {
 namespace {
 
@@ -16,8 +19,21 @@ bool starts_c1(std::string_view text) {
   return second >= 0x80 && second <= 0x9f;
 }
 
-bool is_space(char c) {
-  return c >= '\t' && c <= '\r';
+// True if the text starts with U+2028 to U+202E (separators, embeddings and overrides) or U+2066 to U+2069 (isolates).
+bool starts_layout(std::string_view text) {
+  if (text.size() < 3 || text[0] != '\xe2') return false;
+  const auto second = static_cast<unsigned char>(text[1]), third = static_cast<unsigned char>(text[2]);
+  return (second == 0x80 && third >= 0xa8 && third <= 0xae) || (second == 0x81 && third >= 0xa6 && third <= 0xa9);
+}
+
+bool is_separator(std::string_view character) {
+  return character.size() == 1 ? character[0] >= '\t' && character[0] <= '\r'
+                               : character == "\u2028" || character == "\u2029";
+}
+
+// Bytes of the control character that the text starts with; 0 if it starts with another character.
+std::size_t control_size(std::string_view text) {
+  return is_control(text[0]) ? 1 : starts_c1(text) ? 2 : starts_layout(text) ? 3 : 0;
 }
 
 }  // namespace
@@ -26,15 +42,18 @@ std::string printable(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   while (!text.empty()) {
-    const bool c1 = starts_c1(text);
-    if (c1 || is_control(text[0])) {
-      safe += is_space(text[0]) ? ' ' : '?';
-    } else {
-      safe += text[0];
-    }
-    text.remove_prefix(c1 ? 2 : 1);
+    const std::size_t size = control_size(text);
+    safe += size == 0 ? text[0] : is_separator(text.substr(0, size)) ? ' ' : '?';
+    text.remove_prefix(std::max<std::size_t>(size, 1));
   }
   return safe;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string safe;
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+    safe += printable(text.substr(0, end)) + '\n';
+  return safe + printable(text);
 }
 
 bool is_printable(std::string_view text) {

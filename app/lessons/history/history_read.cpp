@@ -58,9 +58,9 @@ class RunParts {
   }
 
   void read_comment(std::vector<CommentRow>& comments) {
-    comments.push_back({comment_rows_.getColumn(0).getString(), comment_rows_.getColumn(1).getString(),
+    comments.push_back({stored_date(comment_rows_.getColumn(0).getString()), comment_rows_.getColumn(1).getString(),
                         comment_rows_.getColumn(2).getString(), comment_rows_.getColumn(3).getInt64(),
-                        comment_rows_.getColumn(4).getString()});
+                        stored_date(comment_rows_.getColumn(4).getString())});
   }
 
   SQLite::Statement shift_rows_, error_rows_, comment_rows_;
@@ -70,7 +70,7 @@ class RunParts {
 RunRow run_in(const SQLite::Statement& row) {
   RunRow run{row.getColumn(0).getInt64(),
              row.getColumn(1).getInt64(),
-             row.getColumn(2).getString(),
+             stored_date(row.getColumn(2).getString()),
              row.getColumn(3).getString(),
              {}};
   read_record(row, 4, run.result);
@@ -84,8 +84,8 @@ std::vector<LearnerRow> History::State::learners() {
   std::vector<LearnerRow> all;
   SQLite::Statement rows = query("SELECT id, name, made_at, next_lesson FROM learner ORDER BY name");
   while (rows.executeStep()) {
-    all.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
-                   rows.getColumn(3).getString()});
+    all.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getString(),
+                   stored_date(rows.getColumn(2).getString()), rows.getColumn(3).getString()});
   }
   return all;
 }

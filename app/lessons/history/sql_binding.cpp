@@ -3,6 +3,9 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <utility>
+
+#include "app/lessons/history/utc_time.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -25,6 +28,10 @@ void bind_value(SQLite::Statement& statement, int index, ErrorKind kind) {
 
 void bind_value(SQLite::Statement& statement, int index, const std::vector<ShiftStep>& steps) {
   statement.bind(index, format_steps(steps));
+}
+
+std::string stored_date(std::string date) {
+  return parse_utc(date) ? std::move(date) : std::string();
 }
 
 void read_value(const SQLite::Statement& row, int index, std::string& value) {

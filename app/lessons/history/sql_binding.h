@@ -22,6 +22,8 @@ namespace gearshift::lessons {
 // never measured.
 double stored_figure(double value) noexcept;
 
+std::string stored_date(std::string date);  // empty if it is no date of format_utc()
+
 template <class T>
 concept Number = std::floating_point<T> || std::integral<T>;  // flags are integers, too
 template <class T>

@@ -34,3 +34,16 @@ TEST_CASE("a table for spreadsheets: byte order mark, another separator, decimal
   CHECK(std::move(quoted).take() == "\"0,5\",7\r\n");
   CHECK(csv_field("a;b\tc", '\t') == "\"a;b\tc\"");
 }
+
+// OWASP, CSV Injection: cells that begin with = + - @, also full-width.
+TEST_CASE("a text that would be a formula gets an apostrophe; numbers and single signs do not") {
+  CsvTable table;
+  table.text("=1+1").text("+1").text("-2+3").text("@SUM(1)").text("\uff1d1").text("-").text("a=1").number(-2.5).end();
+  CHECK(std::move(table).take() == "'=1+1,'+1,'-2+3,'@SUM(1),'\uff1d1,-,a=1,-2.5\r\n");
+}
+
+TEST_CASE("a field has printable lines") {
+  CsvTable table;
+  table.text("red\x1b[31m\nabc\u202e").end();
+  CHECK(std::move(table).take() == "\"red?[31m\nabc?\"\r\n");
+}
