@@ -19,13 +19,16 @@ namespace {
 
 // These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see
 // haptics/loop/README.md.
-constexpr double kQuiet = 0.35;           // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
+constexpr double kQuiet = 0.25;           // [1] sampled holds: limit of stiffness*lag^2/mass
+constexpr double kQuietDamping = 0.35;    // [1] the same of damping*lag/mass, and of a device's springs under the hold
 constexpr double kQuietObserved = 0.58;   // [1] observer hold: limit of stiffness*lag^2/mass
 constexpr double kQuietOnSpring = 0.5;    // [1] replaces kQuietObserved on a device's springs of more than m / tau^2
 constexpr double kObservedTau = 0.0125;   // [s] longest lag at which the observer hold is preferred
 constexpr double kGainMargin = 1.1;       // [1] factor on the stiffness, a margin for plant error and jitter
 constexpr double kMaxCountForce = 3.0;    // [N] largest change of a damping force by one encoder count
 constexpr double kSlowImpact = 0.1;       // [m/s] the encoder must resolve a contact at this speed
+constexpr double kDampedImpact = 0.08;    // [m/s] at this speed, damping must outweigh one encoder count
+constexpr double kLongTau = 0.015;        // [s] a longer lag adds energy to an impact, whatever stiffness and damping
 constexpr double kMinCounts = 3.0;        // [counts] least depth at which a wall stops a lever of that speed
 constexpr double kMaxCountSpeed = 0.125;  // [m/s] largest change of the observed velocity by one encoder count
 constexpr double kQuietCoarse = 0.2;      // [1] replaces kQuiet where a count changes the observed velocity by more
@@ -35,9 +38,22 @@ constexpr double kHalfSwings = 7.0;       // [1] ... of which it looks at so man
 constexpr double kSwingAccuracy = 1e-4;   // [1] relative, of the stiffness that this allows
 constexpr NamedHand kHeaviestHand = kNamedHands.back();
 constexpr double kSwingDecay = 1.0 / 3.0;  // [1] ... and must shrink to this fraction; the limiter asks for half
-constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kZeroOrderLaw =
+    "the zero-order hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kLeastDampingLaw =
+    "an impact gains energy from the encoder's count q and the delay unless B >= K (q / (0.08 m/s) + 0.1 tau), with "
+    "tau "
+    "= (delay + 1) T";
+constexpr const char* kZeroOrderDampingLaw =
+    "with the zero-order hold, an impact gains energy from the encoder's count q and the delay unless B >= K (q / "
+    "(0.08 "
+    "m/s) + (2.1 delay + 1.1) T)";
 constexpr const char* kCoarseLaw =
     "with so coarse an encoder, the half-sample hold is quiet only if K <= 0.2 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kLateLaw =
+    "a sampled hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T; above 15 ms an impact gains energy "
+    "anyway";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kSpringLaw =
     "on the device's springs of more than m / tau^2, the observer hold is quiet only if K <= 0.5 m / tau^2, with tau = "
@@ -66,20 +82,27 @@ constexpr const char* kStableFeelLaw =
     "the spectral radius of the sampled loop must be below 1 at 1.1 times the gate's stiffest force";
 constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
-// Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
+// Moves a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
 // law applied last is reported.
 struct Limiter {
   bool allow_unstable;
   std::vector<TuningLimit>& limits;
 
   void limit(double& value, double max, TuningParameter parameter, const char* law, std::string_view hand = {}) const {
-    if (value <= max) return;
-    const double used = allow_unstable ? value : max;
+    if (value > max) move(value, max, parameter, law, hand);
+  }
+  void raise(double& value, double min, TuningParameter parameter, const char* law) const {
+    if (value < min) move(value, min, parameter, law, {});
+  }
+
+ private:
+  void move(double& value, double bound, TuningParameter parameter, const char* law, std::string_view hand) const {
+    const double used = allow_unstable ? value : bound;
     const auto same = [&](const TuningLimit& one) { return one.parameter == parameter; };
     const auto before = std::find_if(limits.begin(), limits.end(), same);
     const double wanted = before == limits.end() ? value : before->wanted;
     if (before != limits.end()) limits.erase(before);
-    limits.push_back({law, parameter, wanted, used, max, std::string(hand)});
+    limits.push_back({law, parameter, wanted, used, bound, std::string(hand)});
     value = used;
   }
 };
@@ -102,7 +125,7 @@ bool can_observe(const HapticConfig& config, const DeviceSpec& spec) noexcept {
 // late damper acts mostly while the lever leaves.
 bool is_on_fast_spring(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   const double tau = lag(config, spec);
-  return usable_wall_stiffness(spec) * tau * tau > kQuiet * lighter_mass(spec);
+  return usable_wall_stiffness(spec) * tau * tau > kQuietDamping * lighter_mass(spec);
 }
 
 // Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the rate or the device's
@@ -117,15 +140,24 @@ ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noex
   return is_observed ? ContactHold::observer : ContactHold::half_sample;
 }
 
+// Largest quiet damping by a sampled velocity. [N s/m]
+double quiet_damping(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  return kQuietDamping * lighter_mass(spec) / lag(config, spec);
+}
+// Largest damping that the encoder's resolution allows. [N s/m]
+double count_damping(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  if (spec.position_step == 0.0) return std::numeric_limits<double>::infinity();
+  return kMaxCountForce * config.estimator.window * period_s(config) / spec.position_step;
+}
+
 void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                     const Limiter& limiter) {
   HapticTuning& tuning = admitted.tuning;
-  const double tau = lag(config, spec), damping = kQuiet * lighter_mass(spec) / tau;
+  const double tau = lag(config, spec), damping = quiet_damping(config, spec);
   limiter.limit(tuning.aisle_damping, damping, &HapticTuning::aisle_damping, kDampingLaw);
   limiter.limit(tuning.limit_damping, damping, &HapticTuning::limit_damping, kDampingLaw);
   const bool observed = admitted.hold == ContactHold::observer;
   if (!observed) limiter.limit(tuning.wall_damping, damping, &HapticTuning::wall_damping, kDampingLaw);
-  if (admitted.hold == ContactHold::zero_order) return;
   const auto limit_stiffness = [&](double factor, const char* law) {
     limiter.limit(tuning.wall_stiffness, factor * lighter_mass(spec) / (tau * tau), &HapticTuning::wall_stiffness, law);
   };
@@ -133,7 +165,8 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   const bool on_spring = usable_wall_stiffness(spec) > lighter_mass(spec) / (tau * tau);
   if (observed && on_spring) return limit_stiffness(kQuietOnSpring, kSpringLaw);
   if (observed) return limit_stiffness(kQuietObserved, kObservedLaw);
-  limit_stiffness(kQuiet, kQuietLaw);
+  const char* law = admitted.hold == ContactHold::zero_order ? kZeroOrderLaw : kQuietLaw;
+  limit_stiffness(kQuiet, tau > kLongTau ? kLateLaw : law);
   if (!can_observe(config, spec)) limit_stiffness(kQuietCoarse, kCoarseLaw);
 }
 
@@ -143,9 +176,8 @@ void limit_to_resolution(const HapticConfig& config, const DeviceSpec& spec, Adm
                          const Limiter& limiter) {
   if (spec.position_step == 0.0) return;
   HapticTuning& tuning = admitted.tuning;
-  const double period = period_s(config);
-  const double damping = kMaxCountForce * config.estimator.window * period / spec.position_step;
-  const double free_damping = damping / -std::expm1(-period / config.estimator.smoothing);
+  const double damping = count_damping(config, spec);
+  const double free_damping = damping / -std::expm1(-period_s(config) / config.estimator.smoothing);
   const double stop_time = kMinCounts * spec.position_step / kSlowImpact;
   limiter.limit(tuning.aisle_damping, free_damping, &HapticTuning::aisle_damping, kCountFreeDampingLaw);
   limiter.limit(tuning.limit_damping, free_damping, &HapticTuning::limit_damping, kCountFreeDampingLaw);
@@ -170,6 +202,42 @@ void set_observed_damping(const HapticConfig& config, const DeviceSpec& spec, Ad
   const double used = config.contact.allow_unstable ? damping : needed;
   admitted.limits.push_back({kObservedDampingLaw, &HapticTuning::wall_damping, damping, used, needed, {}});
   damping = used;
+}
+
+// Time [s] in the law B >= K time of a sampled hold, below which a slow impact gains energy. An encoder count q changes the
+// wall's force by K q, so damping must make as much at kDampedImpact; dry friction of K q / 2 does the same to a lever at
+// rest (N. Diolaiti et al. Stability of Haptic Rendering: Discretization, Quantization, Time Delay, and Coulomb Effects.
+// 2006). The rest of the time, which was found by search, is for late forces.
+double least_damping_time(const HapticConfig& config, const DeviceSpec& spec, ContactHold hold) noexcept {
+  if (hold == ContactHold::observer) return 0.0;
+  const double held = hold == ContactHold::zero_order ? (2 * spec.delay + 1) * period_s(config) : 0.0;
+  return spec.position_step / kDampedImpact + 0.1 * lag(config, spec) + held;
+}
+
+const char* least_damping_law(ContactHold hold) noexcept {
+  return hold == ContactHold::zero_order ? kZeroOrderDampingLaw : kLeastDampingLaw;
+}
+
+// Raises the damping of a sampled hold to what the loop's stiffness needs, as far as the laws above allow. Returns it, also
+// where allow_unstable keeps the damping as it is.
+double raise_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                     const Limiter& limiter) {
+  double& damping = admitted.tuning.wall_damping;
+  const double stiffness = std::min(admitted.tuning.wall_stiffness, loop_stiffness(config.tuning, spec));
+  const double needed = stiffness * least_damping_time(config, spec, admitted.hold) - usable_wall_damping(spec);
+  const double raised = std::min({needed, quiet_damping(config, spec), count_damping(config, spec)});
+  limiter.raise(damping, raised, &HapticTuning::wall_damping, least_damping_law(admitted.hold));
+  return std::max(damping, raised);
+}
+
+// Limits the stiffness of a sampled hold to what `damping` allows.
+void limit_to_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted, double damping,
+                      const Limiter& limiter) {
+  const double time = least_damping_time(config, spec, admitted.hold);
+  if (time == 0.0 || is_on_fast_spring(config, spec)) return;
+  if (!config.contact.allow_unstable) damping = admitted.tuning.wall_damping;
+  limiter.limit(admitted.tuning.wall_stiffness, (damping + usable_wall_damping(spec)) / time,
+                &HapticTuning::wall_stiffness, least_damping_law(admitted.hold));
 }
 
 // Calls visit for every axis with every listed hand.
@@ -460,8 +528,10 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   limit_to_quiet(config, spec, out, limiter);
   limit_to_resolution(config, spec, out, limiter);
   limit_to_slew(config, out, limiter);
+  const double damping = raise_damping(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
   limit_damping_with_device_walls(config, spec, out, limiter);
+  limit_to_damping(config, spec, out, damping, limiter);
   set_observed_damping(config, spec, out);
   const ContactLaw wall = loop_law(config, out, spec);
   const StableStiffness stable =

@@ -161,11 +161,14 @@ void check_config(const HapticConfig& config);
 void check_device(const DeviceSpec& spec);
 
 // Limits the wanted tuning to what works on this device with every hand of kNamedHands, the bare handle included:
-//   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58, or 0.5 on device springs of more than m / tau^2) and
+//   quiet      Stiffness K <= 0.25 m / tau^2 (observer hold: 0.58, or 0.5 on device springs of more than m / tau^2) and
 //              damping B <= 0.35 m / tau (observer hold: exactly 0.7), with the mass m of the lighter axis and the lag tau
-//              = (delay + 1) * period. The factors were compared with their neighbours over hands, impact phases,
-//              quantisation, jitter and plant error. On device springs k > 0.35 m / tau^2 the half-sample hold would add
-//              energy: the observer hold replaces it, or the springs render the whole wall.
+//              = (delay + 1) * period. Without the observer, B >= K (q / (0.08 m/s) + 0.1 tau) with the encoder's count q
+//              (zero-order hold: and (2 delay + 1) T more), or an impact gains energy: B is raised, and K limited where B
+//              cannot be. Above tau = 15 ms an impact gains energy anyway, which is reported. The factors were compared
+//              with their neighbours over hands, impact phases, quantisation, jitter and plant error. On device springs k
+//              > 0.35 m / tau^2 the half-sample hold would add energy: the observer hold replaces it, or the springs
+//              render the whole wall.
 //   resolution One encoder count q changes a damping force by at most 3 N (B q / T), and a wall stops a lever of 0.1 m/s
 //              within 3 counts or more. If a count changes the observed velocity by more than 0.125 m/s, the half-sample
 //              hold replaces the observer, with K <= 0.2 m / tau^2.

@@ -74,13 +74,13 @@ check "its table has a width" awk -F, 'END { exit !(NR == 122 && $1 > 0 && $2 ==
 
 # Checks how the trainer would limit a wall of 5000 N/m (the default) and 10 N s/m at 100 Hz.
 answers --hold half_sample --rate 100 --wall-damping 10 --json
-check "the trainer: K" near admitted_wall_stiffness_n_per_m 332.5 1e-9
+check "the trainer: K" near admitted_wall_stiffness_n_per_m 237.5 1e-9
 check "the trainer: B" near admitted_wall_damping_n_s_per_m 3.325 1e-9
 check "the trainer: hold" is admitted_hold half_sample
 check "the trainer: K, B and the loop's own damping are limited" test "$(grep -c '"law": ".*quiet only if' out)" -eq 3
 answers --hold half_sample --rate 100 --wall-damping 10
-check "the trainer's limits in words" says "The trainer would use K = 332.5 N/m, B = 3.325 N s/m, half-sample hold:"
-check "with the reason" says "wall_stiffness_n_per_m limited from 5000 to 332.5 (the half-sample hold is quiet only if K <= 0.35 m / tau^2"
+check "the trainer's limits in words" says "The trainer would use K = 237.5 N/m, B = 3.325 N s/m, half-sample hold:"
+check "with the reason" says "wall_stiffness_n_per_m limited from 5000 to 237.5 (the half-sample hold is quiet only if K <= 0.25 m / tau^2"
 answers --hold half_sample --wall-damping 10 --json
 check "the shipped wall is used unchanged" is admitted_wall_stiffness_n_per_m 5000.0
 check "nothing is limited" is limited "[]"

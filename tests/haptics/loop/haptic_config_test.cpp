@@ -74,7 +74,7 @@ AdmittedTuning admitted(const HapticTuning& wanted, double rate, int delay, Cont
 
 }  // namespace
 
-TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau (observer 0.7), tau = (delay + 1) T") {
+TEST_CASE("quiet: K <= 0.25 m / tau^2 (observer 0.58), B <= 0.35 m / tau (observer 0.7), tau = (delay + 1) T") {
   HapticTuning wanted;
   wanted.wall_stiffness = 20000.0;
   wanted.wall_damping = 100.0;
@@ -83,7 +83,7 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau (observ
   for (const double rate : {100.0, 200.0, 500.0, 1000.0, 4000.0}) {
     for (const int delay : {0, 1, 3}) {
       for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
-        const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.35;
+        const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.25;
         const AdmittedTuning found = admitted(wanted, rate, delay, hold);
         const HapticTuning& used = found.tuning;
         CHECK(used.wall_stiffness <= std::min(20000.0, factor * 0.086 / (tau * tau)) * (1.0 + 1e-12));
@@ -322,20 +322,72 @@ TEST_CASE("a device with invalid properties is refused") {
   refused([](DeviceSpec& s) { s.axis_y.stiffness = std::numeric_limits<double>::infinity(); });
 }
 
-TEST_CASE("a textbook spring is limited below the exact boundary, and the limiting hand is named") {
-  HapticTuning spring;
-  spring.wall_stiffness = 20000.0;
-  spring.wall_damping = 0.0;
-  spring.aisle_damping = 0.0;
-  const AdmittedTuning used = admitted(spring, 1000.0, 0, ContactHold::zero_order);
+TEST_CASE("a textbook spring's bound is below the exact boundary, and the limiting hand is named") {
+  HapticConfig spring;
+  spring.contact = {ContactHold::zero_order, EnergyControl::none, true, true};
+  spring.tuning.wall_stiffness = 20000.0;
+  spring.tuning.wall_damping = 0.0;
+  spring.tuning.aisle_damping = 0.0;
+  DeviceSpec spec;
+  spec.simulated = true;
+  const AdmittedTuning used = admit_tuning(spring, spec, paper_feel());
   // The exact limit of the bare handle is 2 b / T + 32 N/m, with damping b and period T: 6032 N/m on the X axis
   // (stability_table_test.cpp) and 5832 N/m on the Y axis. The lower one, divided by the gain margin of 1.1, is the
   // limit.
-  CHECK(used.tuning.wall_stiffness == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
-  REQUIRE(used.limits.size() >= 1);
-  CHECK(used.limits[0].hand == "bare");
-  CHECK(used.limits[0].wanted == 20000.0);
-  CHECK(used.limits[0].bound == used.tuning.wall_stiffness);
+  const auto is_wall = [](const TuningLimit& one) { return one.parameter == &HapticTuning::wall_stiffness; };
+  const auto wall = std::find_if(used.limits.begin(), used.limits.end(), is_wall);
+  REQUIRE(wall != used.limits.end());
+  CHECK(wall->hand == "bare");
+  CHECK(wall->wanted == 20000.0);
+  CHECK(wall->bound == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
+}
+
+TEST_CASE("least damping: B >= K (q / (0.08 m/s) + 0.1 tau), and (2 delay + 1) T more with the zero-order hold") {
+  constexpr double kMass = 0.086;
+  for (const auto& [rate, delay] :
+       {std::pair{4000.0, 0}, {4000.0, 8}, {1000.0, 0}, {1000.0, 4}, {500.0, 1}, {100.0, 0}}) {
+    for (const ContactHold hold : {ContactHold::half_sample, ContactHold::zero_order}) {
+      CAPTURE(rate);
+      CAPTURE(delay);
+      CAPTURE(to_string(hold));
+      HapticConfig config;
+      config.rate = rate;
+      config.contact.hold = hold;
+      config.tuning.wall_stiffness = 20000.0;
+      config.tuning.wall_damping = 0.0;
+      const double tau = (delay + 1) / rate, held = hold == ContactHold::zero_order ? (2 * delay + 1) / rate : 0.0;
+      const double time = kFineStep / 0.08 + 0.1 * tau + held;
+      const AdmittedTuning none = admitted_on(kFineStep, config, delay);
+      CHECK(none.tuning.wall_damping == doctest::Approx(none.tuning.wall_stiffness * time));
+      CHECK(none.tuning.wall_damping <= std::min(0.35 * kMass / tau, 3.0 / (kFineStep * rate)) * (1.0 + 1e-9));
+      CHECK(limits_text(none).find("wall_damping_n_s_per_m raised from 0 to ") != std::string::npos);
+      CHECK(limits_text(none).find("gains energy from the encoder's count q") != std::string::npos);
+      config.tuning.wall_stiffness = 100.0;  // so soft that the usual damping suffices, if the lag allows so much
+      config.tuning.wall_damping = 2.0;
+      CHECK(admitted_on(kFineStep, config, delay).tuning.wall_damping == 2.0);
+    }
+  }
+  // The observer hold has a damping of its own, and a study uses what is wanted.
+  HapticConfig config;
+  config.tuning.wall_damping = 0.0;
+  CHECK(admitted_on(kFineStep, config, 2).tuning.wall_damping == doctest::Approx(0.7 * kMass / 0.003));
+  config.contact.allow_unstable = true;
+  DeviceSpec spec;
+  spec.simulated = true;
+  spec.position_step = kFineStep;
+  const AdmittedTuning study = admit_tuning(config, spec, paper_feel());
+  CHECK(study.tuning == config.tuning);
+  CHECK(limits_text(study).find("wall_damping_n_s_per_m 0 used anyway; the limit is 5.15625") != std::string::npos);
+}
+
+TEST_CASE("a lag above 15 ms is said to add energy to an impact, whatever the wall") {
+  const auto text = [](double rate, int delay) {
+    HapticConfig config;
+    config.rate = rate;
+    return limits_text(admitted_on(kFineStep, config, delay));
+  };
+  CHECK(text(200.0, 2).find("above 15 ms") == std::string::npos);  // 15 ms
+  CHECK(text(100.0, 1).find("above 15 ms an impact gains energy anyway") != std::string::npos);
 }
 
 TEST_CASE("the default is admitted unchanged at 1 kHz; at 100 Hz every limited parameter is reported") {
@@ -472,7 +524,7 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
 
 TEST_CASE(
     "where the loop cannot render the rest, the wall is the loop's part plus the device's, and the limit is reported") {
-  const double quiet = 0.35 * 0.086 / 16e-6;  // 16e-6 = (4 ms)^2: 3 samples of delay plus one period
+  const double quiet = 0.25 * 0.086 / 16e-6;  // 16e-6 = (4 ms)^2: 3 samples of delay plus one period
   const AdmittedTuning used = admitted_with_device_walls(400.0, 5000.0, 3, ContactHold::half_sample);
   CHECK(used.tuning.wall_stiffness == doctest::Approx(quiet + 400.0));
   const TuningLimit* wall = limit_of_wall(used);
@@ -481,7 +533,7 @@ TEST_CASE(
   CHECK(wall->used == used.tuning.wall_stiffness);
   CHECK(wall->bound == used.tuning.wall_stiffness);
   CHECK(wall->law ==
-        "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T; the device itself "
+        "the half-sample hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T; the device itself "
         "renders another 400 N/m");
   // If loop and device together reach the wanted wall stiffness, nothing is limited, and the half-sample hold is
   // sufficient.

@@ -88,7 +88,7 @@ TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, w
         config.haptics.rate = rate;
         config.lever.delay = delay;
         SimulatedRun run(config, idle_hand);
-        run_for(run, 2.0);
+        run_for(run, 4.0);
         double low = 1.0, high = -1.0;
         for (const double end = run.time() + 0.5; run.time() < end;) {
           run.step();

@@ -322,7 +322,7 @@ TEST_CASE("a change of tuning keeps the hold in use, and its values are checked"
   // The default of 5000 N/m would need the observer hold, but the hold is chosen only at the start.
   const AdmittedTuning changed = run.loop().change_tuning({});
   CHECK(changed.hold == ContactHold::half_sample);
-  CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.35 * 0.086 / 9e-6));
+  CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.25 * 0.086 / 9e-6));
   for (const double bad : {20001.0, std::nan("")}) {
     HapticTuning tuning;
     tuning.wall_stiffness = bad;

@@ -216,7 +216,7 @@ TEST_CASE("no wall is softened that is admitted, however stiff: the arm's swing 
     // Never softer than what the half-sample hold may show.
     const AdmittedTuning admitted = admitted_wall(campaign.contact);
     const double tau = (delay + 1.0) / rate;
-    CHECK(admitted.tuning.wall_stiffness >= 0.999 * std::min(0.35 * 0.086 / (tau * tau), 17000.0));
+    CHECK(admitted.tuning.wall_stiffness >= 0.999 * std::min(0.25 * 0.086 / (tau * tau), 10000.0));
   }
   // Negative control: the observer hold as stiff as 0.58 m / tau^2 allows.
   Campaign wild;
@@ -295,6 +295,44 @@ TEST_CASE("what is admitted is quiet: within 0.12 mm or 1.5 counts, no impact ga
     const Quietness wild = quietness(unlimited);
     CHECK((wild.ripple > 1.5 * found.ripple || wild.energy > 0.0));
   }
+}
+
+TEST_CASE("whatever K and B are wanted, with any hold: within 0.12 mm, no impact gains energy, nothing is softened") {
+  constexpr std::pair<double, int> kTimings[] = {{4000.0, 0}, {4000.0, 4}, {2000.0, 2}, {1000.0, 0}, {1000.0, 1},
+                                                 {1000.0, 4}, {500.0, 0},  {500.0, 1},  {200.0, 0}};
+  for (const auto& [rate, delay] : kTimings) {
+    for (const ContactHold hold : {ContactHold::automatic, ContactHold::half_sample, ContactHold::zero_order}) {
+      for (const auto& [stiffness, damping] : {std::pair{20e3, 0.0}, {20e3, 10.0}, {20e3, 100.0}, {2e3, 0.0}}) {
+        CAPTURE(rate);
+        CAPTURE(delay);
+        CAPTURE(to_string(hold));
+        CAPTURE(stiffness);
+        CAPTURE(damping);
+        ContactCase contact;
+        contact.haptics.rate = rate;
+        contact.haptics.contact.hold = hold;
+        contact.haptics.tuning.wall_stiffness = stiffness;
+        contact.haptics.tuning.wall_damping = damping;
+        contact.lever.delay = delay;
+        const Quietness found = quietness(contact);
+        CHECK(found.ripple <= 0.12e-3);
+        CHECK(found.energy < 0.0);
+        CHECK(found.softened == 0.0);
+      }
+    }
+  }
+  // Negative controls: without damping, and two samples late at 2 kHz with K = 0.35 m / tau^2, a wall is not quiet.
+  ContactCase bare;
+  bare.haptics.contact.hold = ContactHold::half_sample;
+  bare.haptics.contact.allow_unstable = true;
+  bare.haptics.tuning.wall_damping = 0.0;
+  CHECK(quietness(bare).energy > 0.1);
+  ContactCase late = bare;
+  late.haptics.rate = 2000.0;
+  late.haptics.tuning.wall_stiffness = 13378.0;
+  late.haptics.tuning.wall_damping = 5.0;
+  late.lever.delay = 2;
+  CHECK(quietness(late).ripple > 0.12e-3);
 }
 
 TEST_CASE("the wall's place within an encoder count matters: its ripple is not that of one place") {
