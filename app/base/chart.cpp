@@ -168,4 +168,22 @@ double grid_step(double span, int max_lines) noexcept {
   return 10.0 * power;
 }
 
+void draw_curve(Svg& svg, const Rect& box, const Curve& curve, double text) {
+  if (curve.points.empty()) return;
+  double low = 0.0, high = 1.0;
+  for (const glm::dvec2& point : curve.points) {
+    low = std::min(low, 1.05 * point.y);
+    high = std::max(high, 1.05 * point.y);
+  }
+  const Chart chart(svg, box, Scale::decades(curve.points.front().x, curve.points.back().x), {low, high}, text);
+  svg.rect(box, kFreeColour);
+  chart.x_grid();
+  chart.y_grid(grid_step(high - low, 6));
+  chart.x_name(curve.x_name);
+  chart.y_name(curve.y_name);
+  chart.curve(curve.points, {kGearColour, 0.3 * text});
+  for (const glm::dvec2& point : curve.points) svg.dot(chart.at(point.x, point.y), 0.3 * text, kGearColour);
+  svg.frame(box, "none", {kSoftInk, 0.1 * text});
+}
+
 }  // namespace gearshift::base

@@ -1,6 +1,7 @@
 // Axes, grids, numbers and curves of SVG plots. The verbs tour, identify and reproduce draw with gnuplot instead.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -72,6 +73,15 @@ class Chart {
   Scale x_, y_;
   double text_;
 };
+
+// A figure against a positive value, such as a frequency.
+struct Curve {
+  std::string x_name, y_name;  // axis labels
+  std::vector<glm::dvec2> points;
+};
+
+// Draws the curve and its points, on a logarithmic axis, from 0 or below to 1 or above. `text`: as in Chart
+void draw_curve(Svg& svg, const Rect& box, const Curve& curve, double text);
 
 // The smallest step of 1, 2 or 5 times a power of ten that puts at most `max_lines` lines into `span`.
 double grid_step(double span, int max_lines) noexcept;

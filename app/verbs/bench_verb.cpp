@@ -18,6 +18,7 @@
 #include "app/base/user_folders.h"
 #include "app/lab/bench/bench_files.h"
 #include "app/lab/bench/bench_page.h"
+#include "app/lab/bench/curve_svg.h"
 #include "app/lab/bench/last_run.h"
 #include "app/lab/bench/rows/bench.h"
 #include "app/lab/bench/trade_svg.h"
@@ -128,6 +129,7 @@ std::vector<lessons::ReportFile> format_files(const lab::BenchRun& run) {
   for (const lab::MeasuredRow& measured : run.rows) rows.push_back(measured.row);
   for (const lab::NamedFamily& family : lab::bench_families()) {
     std::string svg = lab::trade_svg(family.name, rows);
+    if (svg.empty()) svg = lab::curve_svg(family.name, rows);  // a family compares methods, or draws curves
     if (!svg.empty()) files.push_back({plot_name(family), std::move(svg)});
   }
   return files;

@@ -50,6 +50,7 @@ check "is named by them" grep -q "^2.5,20,300 " out
 check "another preset" answers --preset measured
 check "the drawing" answers --svg wall.svg
 check "is whole" grep -q "</svg>" wall.svg
+check "it shows Re Z and the damping at eleven frequencies each" test "$(grep -c '<circle' wall.svg)" -eq 22
 
 # Weak motors: the swing and the usual pushes stay within their force, and a push beyond it is reported.
 printf 'name = "Weak"\n[lever]\npeak_force_n = 10\ncontinuous_force_n = 5\n' >weak.toml

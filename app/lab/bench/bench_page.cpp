@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/base/html.h"
+#include "app/lab/bench/curve_svg.h"
 #include "app/lab/bench/trade_svg.h"
 
 namespace gearshift::lab {
@@ -140,6 +141,18 @@ std::string trades_section(const BenchRun& run) {
          figures + "</section>\n";
 }
 
+std::string curves_section(const BenchRun& run) {
+  std::string figures;
+  const std::vector<BenchRow> rows = plain_rows(run);
+  for (const std::string& family : families_of(run)) {
+    const std::string svg = curve_svg(family, rows);
+    if (svg.empty()) continue;
+    figures += fmt::format("<figure id=\"curves-{0}\">\n<figcaption>{0}</figcaption>\n{1}</figure>\n",
+                           base::html_text(family), svg);
+  }
+  return figures.empty() ? "" : "<section id=\"curves\">\n<h2>Curves</h2>\n" + figures + "</section>\n";
+}
+
 std::string change_row(const BenchRow& row, const std::optional<SinceLast>& since) {
   if (!since || !since->changed) return {};
   const std::string contention = since->contention.empty() ? "" : fmt::format("; CPU time: {}", since->contention);
@@ -239,7 +252,8 @@ std::string bench_page(const BenchRun& run) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Speed against error</title>\n"
       "<style>{}{}</style>\n</head>\n<body>\n<h1>Speed against error</h1>\n",
       base::html_style(), kBenchStyle);
-  page += facts(run) + contents(run) + summary(run) + trades_section(run) + design_section(run) + changes_section(run);
+  page += facts(run) + contents(run) + summary(run) + trades_section(run) + curves_section(run) + design_section(run) +
+          changes_section(run);
   for (const std::string& family : families_of(run)) page += family_section(family, run);
   return page + "</body>\n</html>\n";
 }

@@ -173,4 +173,15 @@ ImpactEnergy run_impacts(ContactCase contact, int phases, const ImpactPlan& plan
   return out;
 }
 
+std::array<base::Curve, 2> curves_in_motion(const std::vector<DynamicStiffness>& found, double stiffness) {
+  std::array<base::Curve, 2> curves;
+  curves[0] = {"frequency of the motion [Hz]", "Re Z / K", {}};
+  curves[1] = {"frequency of the motion [Hz]", "damping Im Z / w [N s/m]", {}};
+  for (const DynamicStiffness& one : found) {
+    curves[0].points.emplace_back(one.frequency, one.stiffness / stiffness);
+    curves[1].points.emplace_back(one.frequency, one.damping);
+  }
+  return curves;
+}
+
 }  // namespace gearshift::lab

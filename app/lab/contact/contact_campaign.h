@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/base/chart.h"
 #include "app/lab/contact/contact_rig.h"
 #include "haptics/device/hand.h"
 
@@ -88,5 +89,9 @@ struct ImpactPlan {
 // Impacts of the handle on the wall without a hand, model error, jitter or other forces. `phases`: number of impacts at
 // each speed.
 ImpactEnergy run_impacts(ContactCase contact, int phases, const ImpactPlan& plan = {});
+
+inline constexpr std::array kMotionBand{0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0, 7.0, 10.0, 14.0, 20.0};  // [Hz]
+// Re Z over the stiffness K of the wall [N/m], and the damping Im Z / w, against frequency.
+std::array<base::Curve, 2> curves_in_motion(const std::vector<DynamicStiffness>& found, double stiffness);
 
 }  // namespace gearshift::lab

@@ -18,8 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using glm::dvec2;
 
-constexpr std::array kFrequencies{0.5, 1.0, 2.0, 5.0, 10.0, 20.0};  // [Hz]
-constexpr int kMinPhases = 20;                                      // impacts per speed
+constexpr int kMinPhases = 20;  // impacts per speed
 
 std::string describe_loop(const ContactQuestion& question) {
   const ContactCase& contact = question.campaign.contact;
@@ -98,22 +97,6 @@ double max_saturation(const ContactAnswer& answer) {
   return found;
 }
 
-// Draws one figure against frequency.
-void draw_plot(base::Svg& svg, const base::Rect& box, const ContactAnswer& answer, const base::Scale& y, double step,
-               std::string_view name, const std::function<double(const DynamicStiffness&)>& figure) {
-  const base::Chart chart(svg, box, base::Scale::decades(kFrequencies.front(), kFrequencies.back()), y, 2.6);
-  svg.rect(box, base::kFreeColour);
-  chart.x_grid();
-  chart.y_grid(step);
-  chart.x_name("frequency of the motion [Hz]");
-  chart.y_name(name);
-  std::vector<dvec2> points;
-  for (const DynamicStiffness& one : answer.dynamic) points.emplace_back(one.frequency, figure(one));
-  chart.curve(points, {base::kGearColour, 0.8});
-  for (const dvec2& point : points) svg.dot(chart.at(point.x, point.y), 0.8, base::kGearColour);
-  svg.frame(box, "none", {base::kSoftInk, 0.3});
-}
-
 }  // namespace
 
 ContactAnswer measure_contact(const ContactQuestion& question, const std::function<void(double)>& progress) {
@@ -134,7 +117,7 @@ ContactAnswer measure_contact(const ContactQuestion& question, const std::functi
   answer.impact = run_impacts(campaign.contact, std::max(kMinPhases, campaign.runs), answer.impacts);
   ContactCase gripped = campaign.contact;
   gripped.lever.hand = haptics::kGripHand;
-  answer.dynamic = dynamic_stiffness(gripped, kFrequencies);
+  answer.dynamic = dynamic_stiffness(gripped, kMotionBand);
   return answer;
 }
 
@@ -184,6 +167,8 @@ std::string contact_json(const ContactQuestion& question, const ContactAnswer& a
   Json json{{"device", question.device},
             {"rate_hz", campaign.contact.haptics.rate},
             {"delay_cycles", campaign.contact.lever.delay},
+            {"dry_friction_n", campaign.contact.lever.coulomb_friction},
+            {"device_walls_n_per_m", campaign.contact.lever.device_wall_stiffness},
             {"period_jitter", campaign.period_jitter},
             {"plant_error", campaign.model_error},
             {"push_n", {campaign.min_push, campaign.max_push}},
@@ -232,17 +217,9 @@ std::string contact_svg(const ContactQuestion& question, const ContactAnswer& an
   svg.text({4.0, 12.0}, {2.7, base::kSoftInk},
            fmt::format("{}: {}, no jitter or plant error; wall of {}", question.device, describe_loop(question),
                        describe_wall(answer)));
-  const double wanted = answer.admitted.tuning.wall_stiffness;
-  double highest = 1.2, least = 0.0, largest = 1.0;
-  for (const DynamicStiffness& one : answer.dynamic) {
-    highest = std::max(highest, 1.05 * one.stiffness / wanted);
-    least = std::min(least, 1.1 * one.damping);
-    largest = std::max(largest, 1.1 * one.damping);
-  }
-  draw_plot(svg, {14.0, 24.0, 80.0, 52.0}, answer, {0.0, highest}, base::grid_step(highest, 6), "Re Z / K",
-            [wanted](const DynamicStiffness& one) { return one.stiffness / wanted; });
-  draw_plot(svg, {112.0, 24.0, 80.0, 52.0}, answer, {least, largest}, base::grid_step(largest - least, 6),
-            "damping Im Z / w [N s/m]", [](const DynamicStiffness& one) { return one.damping; });
+  const std::array<base::Curve, 2> curves = curves_in_motion(answer.dynamic, answer.admitted.tuning.wall_stiffness);
+  draw_curve(svg, {14.0, 24.0, 80.0, 52.0}, curves[0], 2.6);
+  draw_curve(svg, {112.0, 24.0, 80.0, 52.0}, curves[1], 2.6);
   return std::move(svg).finish();
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "app/lab/bench/rows/bench.h"
 #include "app/lab/contact/contact_campaign.h"
 
@@ -38,18 +40,19 @@ Campaign pushes(const Setting& at, int runs) {
   return campaign;
 }
 
-// Re Z over the stiffness in use, and the damping, of a wall that a gripping hand moves.
-std::vector<RelatedFigure> in_motion(ContactCase contact) {
-  constexpr double kFrequencies[] = {2.0, 5.0, 10.0};
+// Adds Re Z over the stiffness in use, and the damping, of a wall that a gripping hand moves: as figures and as curves.
+void add_motion(BenchRow& row, ContactCase contact) {
+  constexpr double kShown[] = {0.5, 1.0, 2.0, 5.0, 10.0, 20.0};  // [Hz] as figures
   contact.lever.hand = haptics::kGripHand;
   const double stiffness = admitted_wall(contact).tuning.wall_stiffness;
-  std::vector<RelatedFigure> figures;
-  const std::vector<DynamicStiffness> found = dynamic_stiffness(contact, kFrequencies);
-  for (const DynamicStiffness& one : found)
-    figures.push_back({"Re Z at " + std::to_string(static_cast<int>(one.frequency)) + " Hz, of K",
-                       100.0 * one.stiffness / stiffness, "%"});
-  figures.push_back({"damping at 2 Hz", found.front().damping, "N s/m"});
-  return figures;
+  const std::vector<DynamicStiffness> found = dynamic_stiffness(contact, kMotionBand);
+  for (const DynamicStiffness& one : found) {
+    if (std::find(std::begin(kShown), std::end(kShown), one.frequency) == std::end(kShown)) continue;
+    const std::string at = fmt::format(" at {:g} Hz", one.frequency);
+    row.related.push_back({"Re Z" + at + ", of K", 100.0 * one.stiffness / stiffness, "%"});
+    row.related.push_back({"damping" + at, one.damping, "N s/m"});
+  }
+  for (base::Curve& curve : curves_in_motion(found, stiffness)) row.curves.push_back(std::move(curve));
 }
 
 // Impacts of a free lever at 0.1 to 1 m/s.
@@ -73,14 +76,14 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& pref
                                      {"force ripple", worst.force_ripple, "N"},
                                      {"rms acceleration", worst.tremble, "m/s^2"},
                                      {"over what fingers feel", worst.tremble / kFingerThreshold, "x"}};
-  if (!campaign.contact.haptics.contact.allow_unstable) {
-    for (RelatedFigure& figure : in_motion(campaign.contact)) related.push_back(std::move(figure));
-    for (RelatedFigure& figure : in_impact(campaign.contact, quick)) related.push_back(std::move(figure));
-  }
   const std::string what = prefix + timing_label(at) + ": final peak-to-peak motion";
   const std::size_t first = rows.size();
   rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
                   "worst hand: " + worst.hand, true, related});
+  if (!campaign.contact.haptics.contact.allow_unstable) {
+    add_motion(rows.back(), campaign.contact);
+    for (RelatedFigure& figure : in_impact(campaign.contact, quick)) rows.back().related.push_back(std::move(figure));
+  }
   if (at.shows_5000) {
     const double displayed = min_displayed(outcomes) * softest(outcomes);
     rows.push_back({"contact", prefix + timing_label(at) + ": lowest displayed stiffness", displayed, "N/m",

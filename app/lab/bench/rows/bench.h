@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/base/chart.h"
 #include "app/lab/bench/rows/design.h"
 
 namespace gearshift::lab {
@@ -44,7 +45,8 @@ struct BenchRow {
   std::vector<RelatedFigure> related = {};
   std::optional<Quartiles> spread = {};  // set if the measurement was repeated
   std::optional<Trade> trade = {};
-  Design design = Design::none;  // requirement that this row answers
+  std::vector<base::Curve> curves = {};  // drawn beside each other
+  Design design = Design::none;          // requirement that this row answers
 };
 
 bool meets_goal(const BenchRow& row) noexcept;

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/base/colours.h"
+#include "app/lab/bench/curve_svg.h"
 #include "app/lab/bench/trade_svg.h"
 #include "tests/app/lab/bench/constructed_run.h"
 #include "tests/app/lessons/report/page_parts.h"
@@ -181,4 +182,26 @@ TEST_CASE("no plot for a family without methods, of another family, without meas
   absent.measured = false;
   CHECK(trade_svg("walk", {absent}).empty());
   CHECK(trade_svg("walk", {trade_row("alone", 0.0, 0.0)}).empty());
+}
+
+TEST_CASE("curves: a row of plots for each row that has some, with every point at its place, also on the page") {
+  BenchRow row = plain_row("walk", "on a hill", 1.0);
+  row.curves = {{"speed", "effort", {{0.5, 1.0}, {5.0, -1.0}, {50.0, 2.0}}},
+                {"speed", "pulse", {{1.0, 0.2}, {10.0, 0.4}}}};
+  const std::vector<BenchRow> rows{plain_row("walk", "flat", 1.0), row};
+  CHECK(curve_svg("swim", rows).empty());
+  CHECK(curve_svg("walk", {rows.front()}).empty());
+  const std::string svg = curve_svg("walk", rows);
+  CHECK(is_well_formed(svg));
+  CHECK(occurrences(svg, "<circle") == 5);
+  CHECK(occurrences(svg, "<polyline") == 2);
+  for (const char* text : {">on a hill<", ">effort<", ">pulse<"}) CHECK(svg.find(text) != std::string::npos);
+  CHECK(svg.find(">flat<") == std::string::npos);
+  // The middle of a decade axis is the geometric mean, and lower values are further down.
+  const auto x_of = [&](std::size_t from) { return std::stod(svg.substr(svg.find("cx=\"", from) + 4)); };
+  const std::size_t first = svg.find("<circle"), second = svg.find("<circle", first + 1),
+                    third = svg.find("<circle", second + 1);
+  CHECK(x_of(second) == doctest::Approx(0.5 * (x_of(first) + x_of(third))));
+  CHECK(std::stod(svg.substr(svg.find("cy=\"", second) + 4)) > std::stod(svg.substr(svg.find("cy=\"", first) + 4)));
+  CHECK(bench_page(make_run(rows)).find("<figure id=\"curves-walk\">") != std::string::npos);
 }
