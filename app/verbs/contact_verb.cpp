@@ -55,8 +55,8 @@ struct ContactArguments {
   std::string svg_file;
 };
 
-// A simulated lever with the measured properties of a calibrated stick. Its dry friction is not measured, so it is left
-// out: a real lever ripples less.
+// A simulated lever with the measured properties of a calibrated stick. The dead band of its springs needs no model: the
+// driver commands a narrower one by the measured ratio (PidLever), so a spring begins where its wall is.
 haptics::SimulatedLeverConfig lever_like(const haptics::DeviceCalibration& calibration, double period) {
   const haptics::DeviceSpec spec = haptics::spec_of(calibration, period);
   if (spec.delay > haptics::kMaxSimulatedDelay)
@@ -67,6 +67,7 @@ haptics::SimulatedLeverConfig lever_like(const haptics::DeviceCalibration& calib
   haptics::SimulatedLeverConfig lever;
   lever.axis_x = spec.axis_x;
   lever.axis_y = spec.axis_y;
+  lever.coulomb_friction = std::min(calibration.select.friction, calibration.shift.friction);
   lever.delay = spec.delay;
   lever.actuator.peak_force = lever.actuator.continuous_force = std::max(spec.max_force.x, spec.max_force.y);
   lever.encoder_counts = lever.yoke.radius * std::numbers::pi / 180.0 / spec.position_step;

@@ -662,7 +662,7 @@ std::string Calibrator::measure_handle() {
   for (const std::size_t i : motors())
     if (calibration_.holds_spring) found[i] = fit(rig, axis_of(i), kNames[i]);
   std::array<AxisModel, 2> handle;
-  std::array<double, 2> own_spring{};
+  std::array<double, 2> own_spring{}, friction{};
   std::string sentence;
   for (const std::size_t i : motors()) {
     handle[i] = handle_of(found[i], i);
@@ -676,12 +676,15 @@ std::string Calibrator::measure_handle() {
     own_spring[i] = own * handle[i].stiffness;
     sentence += (sentence.empty() ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) +
                 " kg, " + number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
-    const double friction = found[i].friction * axis.force_per_magnitude();  // [N]
-    if (friction >= kMinFriction) sentence += ", " + number_text(friction, 2) + " N of dry friction";
+    const double newtons = found[i].friction * axis.force_per_magnitude();
+    if (newtons < kMinFriction) continue;
+    friction[i] = newtons;
+    sentence += ", " + number_text(newtons, 2) + " N of dry friction";
   }
   for (const std::size_t i : motors()) {
     axis_of(i).handle = handle[i];
     axis_of(i).own_spring = own_spring[i];
+    axis_of(i).friction = friction[i];
   }
   if (calibration_.holds_spring)
     sentence += "; the stick pulls to its centre by itself unless a spring plays, so a spring without a force plays";

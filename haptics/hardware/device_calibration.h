@@ -33,6 +33,7 @@ struct LeverAxisCalibration {
   double spring_dead_band = 0.0;  // [1] measured width of a spring's dead band over the commanded one; 0: not measured
   // [N/m] centring spring that the stick adds while its motors are on; 0: none, or not measured
   double own_spring = 0.0;
+  double friction = 0.0;  // [N] the handle's dry friction; 0: too little to measure, or not measured
   // [1] constant forces grow evenly up to this magnitude, and stronger ones are not used; 0: not measured
   double constant_limit = 0.0;
   double constant_slope = 1.0;  // [1] measured force per magnitude up to the limit, over full_force
@@ -71,6 +72,7 @@ inline constexpr Parameter<LeverAxisCalibration> kParameters<LeverAxisCalibratio
      "its measured over its commanded width"},
     {&LeverAxisCalibration::own_spring, "own_spring", "own_spring_n_per_m", FileRange{0.0, 1e5},
      "centring by its motors; 0: none"},
+    {&LeverAxisCalibration::friction, "friction", "friction_n", FileRange{0.0, 1e3}, "dry friction"},
     {&LeverAxisCalibration::constant_limit, "constant_limit", "constant_limit", FileRange{0.0, 1.0},
      "forces grow evenly up to this magnitude"},
     {&LeverAxisCalibration::constant_slope, "constant_slope", "constant_slope", FileRange{0.01, 10.0},

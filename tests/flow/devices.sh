@@ -40,11 +40,13 @@ import json
 assert stick["id"] == "1209:ffb0" and stick["serial"] == "EMULATED01" and stick["force"] == "pushes"
 assert {"constant force", "spring", "damper"} <= set(stick["effects"]) and stick["calibrated"], stick'
 
+sed -i 's/^constant_limit/friction_n = 0.15\n&/' "$sticks"/1209_ffb0_EMULATED01.toml
 with_stick --family openffboard -- "$gearshift" contact --stick FFBoard --runs 3 --json >wall.json 2>wall.err
 check "what a wall feels like on it, with its own springs, late by its calibration" python3 -c '
 import json
 wall = json.load(open("wall.json"))
 assert wall["device"].startswith("FFBoard") and wall["delay_cycles"] >= 5 and 350 < wall["k_n_per_m"] < 5000, wall
+assert wall["dry_friction_n"] == 0.15 and wall["device_walls_n_per_m"] == 350, wall
 assert wall["energy_worst_fraction"] < 0 and wall["ripple_p95_mm"] < 0.3, wall'
 
 for family in $families; do (tour $family $family && touch $family.ok) & running+=($!); done

@@ -178,6 +178,8 @@ TEST_CASE("dry friction does not spoil the measured mass and damping, and is rep
     CHECK(found.shift.handle.mass == doctest::Approx(config.lever.axis_y.mass).epsilon(0.1));
     CHECK(found.shift.handle.damping == doctest::Approx(config.lever.axis_y.damping).epsilon(0.1));
     CHECK(sentence.find("N of dry friction") != std::string::npos);
+    CHECK(found.select.friction == doctest::Approx(friction).epsilon(0.25));
+    CHECK(found.shift.friction == doctest::Approx(friction).epsilon(0.25));
   }
 }
 

@@ -70,6 +70,7 @@ class RandomCalibration {
     axis.spring_stiffness = between(0.0, 1e5);
     axis.spring_dead_band = between(0.0, 10.0);
     axis.own_spring = between(0.0, 1e5);
+    axis.friction = between(0.0, 1e3);
     axis.damper_sign = sign();
     for (double* fraction : {&axis.constant_cross_talk, &axis.spring_cross_talk, &axis.damper_cross_talk})
       if (flag()) *fraction = between(0.0, 10.0);
@@ -93,7 +94,7 @@ bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
   return a.usage == b.usage && a.low == b.low && a.centre == b.centre && a.high == b.high && a.travel == b.travel &&
          a.full_force == b.full_force && a.constant_sign == b.constant_sign && a.spring_sign == b.spring_sign &&
          a.spring_stiffness == b.spring_stiffness && a.spring_dead_band == b.spring_dead_band &&
-         a.own_spring == b.own_spring && a.damper_sign == b.damper_sign &&
+         a.own_spring == b.own_spring && a.friction == b.friction && a.damper_sign == b.damper_sign &&
          a.damper_strength == b.damper_strength && a.constant_cross_talk == b.constant_cross_talk &&
          a.spring_cross_talk == b.spring_cross_talk && a.damper_cross_talk == b.damper_cross_talk &&
          a.constant_limit == b.constant_limit && a.constant_slope == b.constant_slope &&
