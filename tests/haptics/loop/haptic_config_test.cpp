@@ -543,6 +543,23 @@ TEST_CASE(
   CHECK(both.hold == ContactHold::half_sample);
 }
 
+TEST_CASE(
+    "on device springs k > 0.35 m / tau^2, the observer renders the rest of a wall, or no part of the loop does") {
+  for (const int delay : {2, 5, 8}) {
+    CAPTURE(delay);
+    const double unit = 0.086 / std::pow(0.001 * (delay + 1), 2.0), slow = 0.34 * unit, fast = 0.36 * unit, rest = 50.0;
+    CHECK(admitted_with_device_walls(slow, slow + rest, delay).hold == ContactHold::half_sample);
+    CHECK(admitted_with_device_walls(fast, fast + rest, delay).hold == ContactHold::observer);
+    const AdmittedTuning loop = admitted_with_device_walls(slow, slow + rest, delay, ContactHold::half_sample);
+    CHECK(loop.tuning.wall_stiffness == slow + rest);
+    CHECK(loop.tuning.wall_damping > 0.0);
+    const AdmittedTuning none = admitted_with_device_walls(fast, fast + rest, delay, ContactHold::half_sample);
+    CHECK(none.tuning.wall_stiffness == doctest::Approx(fast));
+    CHECK(none.tuning.wall_damping == 0.0);
+    CHECK(limits_text(none).find("if k tau^2 > 0.35 m") != std::string::npos);
+  }
+}
+
 TEST_CASE("the loop renders the rest of a wall's damping; with the device's part it exceeds the loop's own limit") {
   const double quiet = 0.35 * 0.086 / 0.006;  // [N s/m] 5.0, for 5 samples of delay plus one period at 1 kHz
   const DeviceSpec weak = damping_itself(3.0, 5), strong = damping_itself(20.0, 5), none = damping_itself(0.0, 5);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -376,5 +377,63 @@ TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it
         CHECK(force == doctest::Approx(2000.0 * depth).epsilon(0.02));
       }
     }
+  }
+}
+
+namespace {
+
+class HeldHand final : public HandDriver {
+ public:
+  HandTarget next(double, dvec2) noexcept override {
+    HandTarget target;
+    target.push = {12.0, 0.0};
+    return target;
+  }
+};
+
+// Turning points of the lever about its rest 12 N deep in a wall, after a small kick. [m]
+std::vector<double> turning_points(SimulatedRunConfig config) {
+  HeldHand hand;
+  SimulatedRun run(config, hand);
+  while (run.time() < 3.0) run.step();
+  const double rest = run.lever().true_position().x;
+  run.lever().place({rest, 0.0}, {0.01, 0.0});
+  std::vector<double> turns;
+  double before = 0.0, last = 0.0;
+  for (const double end = run.time() + 1.0; run.time() < end;) {
+    run.step();
+    const double x = run.lever().true_position().x - rest;
+    if ((last - before) * (x - last) < 0.0) turns.push_back(std::abs(last));
+    before = std::exchange(last, x);
+  }
+  return turns;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "swing: at 1.1 times the stiffness that its law admits, an arm's swing shrinks to a third in seven half-swings") {
+  for (const auto& [rate, delay] : {std::pair{1000.0, 1}, {2000.0, 2}, {4000.0, 8}, {500.0, 0}}) {
+    CAPTURE(rate);
+    CAPTURE(delay);
+    SimulatedRunConfig config;
+    config.haptics.rate = rate;
+    config.haptics.tuning.wall_stiffness = 20000.0;
+    config.lever.encoder_counts = 0.0;
+    config.lever.axis_x = config.lever.axis_y = kPaperAxisY;
+    config.lever.delay = delay;
+    config.lever.hand = kArmHand;
+    config.gate = plain_aisle(0.005, 0.030);
+    IdleHand nobody;
+    const AdmittedTuning admitted = SimulatedRun(config, nobody).loop().admitted();
+    REQUIRE(admitted.hold == ContactHold::observer);
+    const auto is_swing = [](const TuningLimit& one) { return one.law.find("swing above 10 Hz") != std::string::npos; };
+    REQUIRE(std::any_of(admitted.limits.begin(), admitted.limits.end(), is_swing));
+    config.haptics.tuning = admitted.tuning;
+    config.haptics.tuning.wall_stiffness *= 1.1;
+    config.haptics.contact = {ContactHold::observer, EnergyControl::none, false, true};
+    const std::vector<double> turns = turning_points(config);
+    REQUIRE(turns.size() > 8);
+    CHECK(turns[8] / turns[1] == doctest::Approx(1.0 / 3.0).epsilon(0.1));
   }
 }
