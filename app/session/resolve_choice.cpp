@@ -44,7 +44,7 @@ bool has_gears_of(const haptics::GateLayout& layout, const lessons::Lesson& less
 }
 
 haptics::GateLayout read_gate(const std::string& name) {
-  return haptics::read_gate_layout(base::find_asset("gates", name));
+  return haptics::read_gearbox_layout(base::find_asset("gates", name));
 }
 
 vehicle::CarSpec read_shipped_car(const std::string& name) {

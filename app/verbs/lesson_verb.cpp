@@ -81,7 +81,7 @@ lessons::LessonDriveConfig make_drive(const LessonArguments& arguments) {
   lessons::LessonDriveConfig config;
   config.lesson = lessons::read_lesson(base::find_asset("lessons", arguments.lesson));
   config.car = vehicle::read_car(base::find_asset("cars", first_of(arguments.car, config.lesson.car, "hatchback")));
-  config.gate = haptics::read_gate_layout(
+  config.gate = haptics::read_gearbox_layout(
       base::find_asset("gates", first_of(arguments.gate, config.lesson.gate, config.car.gate)));
   config.skill = lessons::skill_of(arguments.skill_error);
   for (const std::string& key : arguments.errors)

@@ -11,7 +11,7 @@ void print_tour(const lab::TourSetup& setup, const lab::TourResult& result) {
   }
   base::print_out("{}: {:.2f} s at {:g} Hz\n", setup.layout.name, result.duration, setup.haptics.rate);
   for (const lab::GearTime& gear : result.engaged)
-    base::print_out("  {:>2} engaged at {:6.3f} s\n", haptics::gear_name(gear.gear), gear.time);
+    base::print_out("  {:>2} engaged at {:6.3f} s\n", haptics::gear_label(setup.gate, gear.gear), gear.time);
   if (result.softest < result.admitted) {
     base::print_message("the lever chattered on a wall, so the wall was softened from {:g} to {:g} N/m",
                         result.admitted, result.softest);

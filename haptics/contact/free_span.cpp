@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "haptics/contact/free_space.h"
+#include "haptics/gate/aisle.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -42,11 +43,32 @@ void extend(Interval& span, Interval part) noexcept {
   span = {std::min(span.low, part.low), std::max(span.high, part.high)};
 }
 
+// One pass per aisle, because each part may touch the span only through another.
+FreeSpan span_in_aisles(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
+  FreeSpan span;
+  for (int axis = 0; axis < 2; ++axis) {
+    const glm::dvec2 direction{axis == 0 ? 1.0 : 0.0, axis == 0 ? 0.0 : 1.0};
+    Interval on_axis{0.0, 0.0};
+    for (int pass = 0; pass < gate.aisle_count; ++pass) {
+      const Interval before = on_axis;
+      for (int i = 0; i < gate.aisle_count; ++i) {
+        const LineInterval part = line_inside(open_part(gate, passage, i, point), point, direction);
+        extend(on_axis, {part.low, part.high});
+      }
+      if (on_axis.low == before.low && on_axis.high == before.high) break;
+    }
+    span.low[axis] = point[axis] + on_axis.low;
+    span.high[axis] = point[axis] + on_axis.high;
+  }
+  return span;
+}
+
 }  // namespace
 
 // It suffices to examine the neutral aisle and the nearest column with its mouths: columns with their mouths do not
 // overlap, and only the neutral aisle lies between them.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
+  if (is_mechanism(gate)) return span_in_aisles(gate, passage, point);
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   const Mouth forward = mouth_of(gate, passage, column, Side::forward);
   const Mouth back = mouth_of(gate, passage, column, Side::back);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/contact/free_space.h"
+#include "haptics/gate/aisle.h"
 #include "haptics/joystick/finite.h"
 
 namespace gearshift::haptics {
@@ -27,9 +28,27 @@ double mouth_end(const Gate& gate) noexcept {
   return gate.half_aisle + gate.chamfer + kEdgeTolerance;
 }
 
+// next_leg() in a mechanism of aisles.
+dvec2 next_leg_in_aisles(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
+  dvec2 best = p;
+  double best2 = distance2(p, lever);
+  for (int i = 0; i < gate.aisle_count && best2 > 0.0; ++i) {
+    const AislePart part = open_part(gate, passage, i, p);
+    if (!contains(part, p, kEdgeTolerance)) continue;
+    const dvec2 q = nearest(part, lever);
+    const double d2 = distance2(q, lever);
+    if (d2 < best2) {
+      best = q;
+      best2 = d2;
+    }
+  }
+  return best;
+}
+
 // Target of the proxy's next straight move: the point nearest to the lever in any aisle or mouth that contains the
 // proxy.
 dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
+  if (is_mechanism(gate)) return next_leg_in_aisles(gate, passage, p, lever);
   dvec2 best = p;
   double best2 = distance2(p, lever);
   const auto consider = [&](dvec2 q) {
@@ -55,10 +74,20 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
   return best;
 }
 
+dvec2 nearest_in_aisles(const Gate& gate, dvec2 lever) noexcept {
+  dvec2 best = nearest(whole(gate.aisle[0]), lever);
+  for (const Aisle& aisle : aisles(gate)) {
+    const dvec2 q = nearest(whole(aisle), lever);
+    if (distance2(q, lever) < distance2(best, lever)) best = q;
+  }
+  return best;
+}
+
 }  // namespace
 
 Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
   const Passage passage = open_passage(gate);
+  if (is_mechanism(gate)) return {nearest_in_aisles(gate, lever), lever};
   dvec2 best = nearest(neutral_aisle(gate, passage), lever);
   const auto consider = [&](dvec2 q) {
     if (distance2(q, lever) < distance2(best, lever)) best = q;
@@ -86,7 +115,8 @@ Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 le
       proxy.position += (to - proxy.position) * (budget / length);
       break;
     }
-    const bool in_one_aisle = std::min(std::abs(proxy.position.y), std::abs(to.y)) > mouth_end(gate);
+    const bool in_one_aisle =
+        !is_mechanism(gate) && std::min(std::abs(proxy.position.y), std::abs(to.y)) > mouth_end(gate);
     proxy.position = to;
     if (in_one_aisle || length < kEdgeTolerance || to == lever || leg == kMaxLegs) break;
     budget -= length;

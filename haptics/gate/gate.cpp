@@ -1,7 +1,10 @@
 #include "haptics/gate/gate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+
+#include "haptics/gate/aisle.h"
 
 namespace gearshift::haptics {
 
@@ -27,16 +30,22 @@ int slot_of_gear(const Gate& gate, int gear) noexcept {
 glm::dvec2 rest_position(const Gate& gate, int gear) noexcept {
   const int index = slot_of_gear(gate, gear);
   if (index == kNoSlot) return {column_of(gate, gate.neutral_column).center, 0.0};
-  const Slot& slot = slot_of(gate, index);
-  return {column_of(gate, slot.column).center, static_cast<int>(slot.side) * slot.rest};
+  return slot_of(gate, index).at;
 }
 
 const char* gear_name(int gear) noexcept {
   if (gear == kNextGear) return "+";
   if (gear == kPreviousGear) return "-";
-  static constexpr const char* kNames[] = {"R", "N", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
-  static_assert(std::size(kNames) == kMaxGear - kReverseGear + 1);
-  return gear >= kReverseGear && gear <= kMaxGear ? kNames[gear - kReverseGear] : "?";
+  static constexpr const char* kNames[] = {"R", "N",  "1",  "2",  "3",  "4",  "5",  "6",  "7",  "8",
+                                           "9", "10", "11", "12", "13", "14", "15", "16", "17", "18"};
+  static_assert(std::size(kNames) == kMaxGateGear - kReverseGear + 1);
+  return gear >= kReverseGear && gear <= kMaxGateGear ? kNames[gear - kReverseGear] : "?";
+}
+
+const char* gear_label(const Gate& gate, int gear) noexcept {
+  const int slot = slot_of_gear(gate, gear);
+  const bool has_label = slot != kNoSlot && slot_of(gate, slot).label[0] != '\0';
+  return has_label ? slot_of(gate, slot).label.data() : gear_name(gear);
 }
 
 const char* to_string(Side side) noexcept {
@@ -53,11 +62,18 @@ const char* to_string(LockoutKind kind) noexcept {
       return "speed";
     case LockoutKind::after_gear:
       return "after_gear";
+    case LockoutKind::only_after:
+      return "only_after";
   }
   return "?";
 }
 
 bool in_free_space(const Gate& gate, glm::dvec2 point, double slack) noexcept {
+  if (is_mechanism(gate)) {
+    const auto all = aisles(gate);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Aisle& aisle) { return distance_to(aisle, point) <= aisle.half_width + slack; });
+  }
   const double across = std::abs(point.y);
   if (across <= gate.half_aisle + slack) {
     if (point.x >= gate.select_min - slack && point.x <= gate.select_max + slack) return true;

@@ -106,7 +106,7 @@ void check_junctions(const GateLayout& layout) {
 
 void check_gears(const GateLayout& layout) {
   if (layout.sequential_gears > 0) return;  // read_gate_layout() has checked the number
-  constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
+  constexpr std::size_t kGears = kMaxGateGear - kReverseGear + 1;
   const auto at = [](int gear) {
     const int index = gear - kReverseGear;
     return static_cast<std::size_t>(index);
@@ -116,8 +116,8 @@ void check_gears(const GateLayout& layout) {
   int highest = 0;
   for (const ColumnLayout& column : layout.columns) {
     for (const SlotLayout& slot : gears_of(column)) {
-      if (slot.gear < kReverseGear || slot.gear > kMaxGear) {
-        fail(layout, slot.line, "a gear must be R or a number from 1 to " + std::to_string(kMaxGear));
+      if (slot.gear < kReverseGear || slot.gear > kMaxGateGear) {
+        fail(layout, slot.line, "a gear must be R or a number from 1 to " + std::to_string(kMaxGateGear));
       }
       const std::size_t gear = at(slot.gear);
       if (is_present[gear]) {
@@ -138,10 +138,8 @@ void check_gears(const GateLayout& layout) {
   }
 }
 
-// Largest absolute slope |dF/dx| [N/m] of the curve through these knots.
 double steepest(const std::vector<FeelKnot>& knots) {
-  const SlopeRange range = slope_range(make_feel_curve(knots));
-  return std::max(range.max, -range.min);
+  return steepest(make_feel_curve(knots));
 }
 
 void check_feel(const GateLayout& layout) {
@@ -159,7 +157,8 @@ void check_feel(const GateLayout& layout) {
   }
   if (!(steepest(select_knots(layout)) <= kMaxFeelSlope)) {
     fail(layout, layout.lines.feel,
-         "center_force_n is too large for such a narrow slot; the force would rise more steeply than " + limit);
+         "center_force_n or spring_n is too large for such narrow slots; the force would rise more steeply than " +
+             limit);
   }
   const double slope = steepest(slot_knots(layout));
   if (!(slope <= kMaxFeelSlope)) {
@@ -169,19 +168,15 @@ void check_feel(const GateLayout& layout) {
   }
 }
 
-// The handle of the paper's joystick has a spring (eq (11)) that pulls towards the middle of the workspace.
-constexpr double kHandleStiffness = 14.8;  // [N/m]
-constexpr double kReturnMargin = 1.2;
-constexpr double kMinReturnForce = 0.5;  // [N] required beyond the spring's force, to overcome dry friction
-
 void check_return(const GateLayout& layout) {
   const double neutral = layout.columns[static_cast<std::size_t>(layout.neutral_column)].position;
-  const double required = kMinReturnForce + kReturnMargin * kHandleStiffness * std::abs(neutral);
-  if (layout.feel.center_force >= required) return;
+  const double required = required_return_force(std::abs(neutral));
+  if (layout.feel.center_force == 0.0 || layout.feel.center_force >= required) return;
   fail(layout, layout.lines.feel,
        "center_force_n = " + number_text(layout.feel.center_force) + ": must be at least " +
            number_text(std::ceil(10.0 * required) / 10.0) +
-           ", or the lever would not return to the neutral column at " + millimetres_text(neutral));
+           ", or the lever would not return to the neutral column at " + millimetres_text(neutral) +
+           "; or 0, if nothing returns it");
 }
 
 // Largest allowed distance [m] of a side wall from the centre, for slots of this depth. Rounded down to 0.1 mm.
@@ -249,6 +244,33 @@ void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
   }
 }
 
+void check_only_after(const GateLayout& layout, const LockoutLayout& lockout) {
+  const std::string gear = gear_name(lockout.gear);
+  if (includes_gear(lockout.only_after, lockout.gear)) {
+    fail(layout, lockout.line,
+         "gear " + gear + " must not be in its own list, because it could never be engaged first");
+  }
+  for (int other = kReverseGear; other <= kMaxGateGear; ++other) {
+    if (includes_gear(lockout.only_after, other) && column_of_gear(layout, other) < 0)
+      fail(layout, lockout.line,
+           "gear " + gear + " is to be open after gear " + gear_name(other) + ", but the gate has no such gear");
+  }
+}
+
+// A spring of its own stiffens the way to a column and to all beyond it.
+void check_springs(const GateLayout& layout) {
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const ColumnLayout& column = layout.columns[i];
+    if (column.spring_force == 0.0) continue;
+    if (layout.sequential_gears > 0 || static_cast<int>(i) == layout.neutral_column)
+      fail(layout, column.line, column_text(column) + " is neutral and can have no spring_n");
+    if (column.spring_force < layout.feel.center_force)
+      fail(layout, column.line,
+           "spring_n = " + number_text(column.spring_force) +
+               ": must not be less than center_force_n = " + number_text(layout.feel.center_force));
+  }
+}
+
 void check_lockouts(const GateLayout& layout) {
   if (layout.lockouts.size() > kMaxLockouts) {
     fail(layout, layout.lockouts[kMaxLockouts].line,
@@ -265,10 +287,24 @@ void check_lockouts(const GateLayout& layout) {
            "this lockout is for gear " + std::string(gear_name(lockout.gear)) + ", but the gate has no such gear");
     }
     if (lockout.kind == LockoutKind::after_gear) check_after_gear(layout, lockout);
+    if (lockout.kind == LockoutKind::only_after) check_only_after(layout, lockout);
   }
 }
 
 }  // namespace
+
+double steepest(const FeelCurve& curve) noexcept {
+  const SlopeRange range = slope_range(curve);
+  return std::max(range.max, -range.min);
+}
+
+// The handle of the paper's joystick has a spring (eq (11)) that pulls towards the middle of the workspace.
+double required_return_force(double distance) noexcept {
+  constexpr double kHandleStiffness = 14.8;  // [N/m]
+  constexpr double kReturnMargin = 1.2;
+  constexpr double kMinReturnForce = 0.5;  // [N] required beyond the spring's force, to overcome dry friction
+  return kMinReturnForce + kReturnMargin * kHandleStiffness * distance;
+}
 
 bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
   const auto inside = [](double x, double y) { return x * x + y * y <= 1.0; };
@@ -298,6 +334,7 @@ void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius)
   check_spacing(layout);
   check_junctions(layout);
   check_gears(layout);
+  check_springs(layout);
   check_feel(layout);
   check_return(layout);
   check_workspace(layout, workspace, radius);

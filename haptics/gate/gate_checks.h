@@ -32,6 +32,13 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept;
 // parameters `half` and `radius` of reaches().
 void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius);
 
+// Largest absolute slope |dF/dx| [N/m] of a curve.
+double steepest(const FeelCurve& curve) noexcept;
+
+// Force towards neutral [N] that a lever at this distance [m] from the middle of the workspace needs, because the
+// handle's own spring pulls to the middle.
+double required_return_force(double distance) noexcept;
+
 // Throws FileError if a buffer would hold a free lever at its closed wall. This check needs the compiled gate.
 void check_buffers(const GateLayout& layout, const Gate& gate);
 

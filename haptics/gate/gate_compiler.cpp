@@ -5,6 +5,7 @@
 
 #include "haptics/gate/gate_checks.h"
 #include "haptics/gate/gate_curves.h"
+#include "haptics/gate/mechanism_compiler.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -13,18 +14,20 @@ namespace {
 // buffer is wide because its force has a potential: a narrower buffer would pull harder towards the closed wall.
 constexpr double kBufferWidthFraction = 0.8;
 
-int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {
-  if (gear == kNeutralGear) return kNoSlot;
+int add_slot(Gate& gate, int column, Side side, const SlotLayout& from, const GateLayout& layout) {
+  if (from.gear == kNeutralGear) return kNoSlot;
   const SlotStations stations = slot_stations(layout);
   Slot& slot = gate.slot[static_cast<std::size_t>(gate.slot_count)];
   slot.column = column;
   slot.side = side;
-  slot.gear = gear;
+  slot.gear = from.gear;
   slot.end = stations.end;
   slot.rest = stations.rest;
   slot.engage_depth = stations.engage;
   slot.release_depth = stations.crest;
   slot.feel = make_feel_curve(slot_knots(layout));
+  slot.at = {column_of(gate, column).center, static_cast<int>(side) * slot.rest};
+  from.label.copy(slot.label.data(), kMaxLabel);
   return gate.slot_count++;
 }
 
@@ -33,8 +36,8 @@ void add_column(Gate& gate, const ColumnLayout& from, const GateLayout& layout) 
   Column& column = gate.column[static_cast<std::size_t>(index)];
   column.center = from.position;
   column.half_width = layout.slot_width / 2.0;
-  column.forward_slot = add_slot(gate, index, Side::forward, from.forward.gear, layout);
-  column.back_slot = add_slot(gate, index, Side::back, from.back.gear, layout);
+  column.forward_slot = add_slot(gate, index, Side::forward, from.forward, layout);
+  column.back_slot = add_slot(gate, index, Side::back, from.back, layout);
   column.forward = column.forward_slot == kNoSlot ? gate.half_aisle : layout.slot_length;
   column.back = column.back_slot == kNoSlot ? -gate.half_aisle : -layout.slot_length;
 }
@@ -76,6 +79,7 @@ void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout
   lockout.kind = from.kind;
   lockout.slot = slot_of_gear(gate, from.gear);
   lockout.after_gear = from.after_gear;
+  lockout.only_after = from.only_after;
   lockout.close_above = from.close_above;
   lockout.open_below = from.open_below;
   if (is_sequential(gate)) {
@@ -95,6 +99,7 @@ void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout
 }  // namespace
 
 Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace, double radius) {
+  if (!layout.aisles.empty()) return compile_mechanism(layout, workspace, radius);
   check_layout(layout, workspace, radius);
 
   Gate gate;

@@ -30,7 +30,35 @@ double spring_slope(double u) {
   return kSpringSlope * (1.0 - u * u);
 }
 
+// Adds two knots for each column whose own spring is stiffer than what acts before it, from the neutral column outwards.
+// The force rises between the mouths of the columns, because in a mouth it must not depend on x.
+void add_column_springs(const GateLayout& layout, int outward, std::vector<FeelKnot>& knots) {
+  const double mouth = layout.slot_width / 2.0 + layout.chamfer;
+  double force = layout.feel.center_force;
+  const int count = static_cast<int>(layout.columns.size());
+  for (int i = layout.neutral_column + outward; i >= 0 && i < count; i += outward) {
+    const ColumnLayout& column = layout.columns[static_cast<std::size_t>(i)];
+    if (column.spring_force <= force) continue;
+    const double before = layout.columns[static_cast<std::size_t>(i - outward)].position;
+    knots.push_back({before + outward * mouth, -outward * force, 0.0});
+    knots.push_back({column.position - outward * mouth, -outward * column.spring_force, 0.0});
+    force = column.spring_force;
+  }
+}
+
 }  // namespace
+
+std::vector<FeelKnot> centring_knots(double force, double width) {
+  return {{0.0, 0.0, -kSpringSlope * force / width}, {width, -force, 0.0}};
+}
+
+std::vector<FeelKnot> place_knots(double radius, double lock_force, double detent_force) {
+  const double crest = 0.7 * radius, lock = 0.35 * radius;  // distances from the place
+  return {{0.0, 0.0, 0.0},
+          {radius - crest, -detent_force, 0.0},
+          {radius - lock, lock_force, 0.0},
+          {radius, 0.0, -kSpringSlope * lock_force / lock}};
+}
 
 SlotStations slot_stations(const GateLayout& layout) {
   SlotStations s;
@@ -85,9 +113,14 @@ std::vector<FeelKnot> select_knots(const GateLayout& layout) {
   const double center = layout.columns.at(static_cast<std::size_t>(layout.neutral_column)).position;
   const double half_width = layout.slot_width / 2.0;
   const double force = layout.feel.center_force;
-  return {{center - half_width, force, 0.0},
-          {center, 0.0, -kSpringSlope * force / half_width},
-          {center + half_width, -force, 0.0}};
+  std::vector<FeelKnot> knots{{center - half_width, force, 0.0},
+                              {center, 0.0, -kSpringSlope * force / half_width},
+                              {center + half_width, -force, 0.0}};
+  add_column_springs(layout, +1, knots);
+  std::vector<FeelKnot> left;
+  add_column_springs(layout, -1, left);
+  knots.insert(knots.begin(), left.rbegin(), left.rend());
+  return knots;
 }
 
 }  // namespace gearshift::haptics

@@ -24,6 +24,16 @@ struct SlotStations {
 };
 SlotStations slot_stations(const GateLayout& layout);
 
+// Largest radius [m] that a place of a mechanism gets by itself, and the depths in it, as fractions of its radius, at
+// which it counts and is released.
+inline constexpr double kPlaceRadius = 0.012;
+inline constexpr double kPlaceEngage = 0.5, kPlaceRelease = 0.3;
+
+// Knots of a place's Slot::feel against the depth in it.
+std::vector<FeelKnot> place_knots(double radius, double lock_force, double detent_force);
+// Knots of a centring force that is constant from the distance `width` on.
+std::vector<FeelKnot> centring_knots(double force, double width);
+
 // Knots of the curves Gate::aisle_feel, Slot::feel and Gate::select_feel: position [m], force [N], slope [N/m].
 std::vector<FeelKnot> aisle_knots(const GateLayout& layout);
 std::vector<FeelKnot> slot_knots(const GateLayout& layout);

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "haptics/gate/mechanism_description.h"
+
 namespace gearshift::haptics {
 namespace {
 
 constexpr int kNoPair = -1;
-constexpr const char* kRoman[kMaxColumns] = {"I", "II", "III", "IV", "V", "VI", "VII", "VIII"};
+constexpr const char* kRoman[kMaxColumns] = {"I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"};
 
 // One side of a column, forward or back. Depths are |y|.
 struct Branch {
@@ -47,10 +49,10 @@ int add_pair(GateDescription& list, std::string name, bool horizontal) {
 }
 
 void describe_aisles(const Gate& gate, GateDescription& list) {
-  list.aisles.push_back({"neutral", true, {gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}});
+  list.aisles.push_back({"neutral", true, {gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}, {}});
   for (const Column& c : columns(gate)) {
     const std::string name = kRoman[list.aisles.size() - 1];
-    list.aisles.push_back({name, false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}});
+    list.aisles.push_back({name, false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}, {}});
   }
 }
 
@@ -135,6 +137,7 @@ const char* to_string(WallRole role) noexcept {
 }
 
 GateDescription describe_gate(const Gate& gate) {
+  if (is_mechanism(gate)) return describe_mechanism(gate);
   GateDescription list;
   describe_aisles(gate, list);
   describe_junctions(gate, list);

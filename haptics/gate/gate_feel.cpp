@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/gate/aisle.h"
+
 namespace gearshift::haptics {
 namespace {
 
@@ -54,15 +56,65 @@ const FeelCurve& shift_curve(const Gate& gate, glm::dvec2 p) noexcept {
   return slot == kNoSlot ? gate.aisle_feel : slot_of(gate, slot).feel;
 }
 
+// [m] an aisle's spring also acts this far outside the aisle, where rounding may leave the proxy
+constexpr double kEdge = 1e-9;
+
+bool is_in_aisle_of(const Gate& gate, const Slot& place, glm::dvec2 p) noexcept {
+  for (int i = 0; i < gate.aisle_count; ++i) {
+    if ((place.aisles >> i & 1u) != 0 && contains(whole(gate.aisle[static_cast<std::size_t>(i)]), p, kEdge))
+      return true;
+  }
+  return false;
+}
+
+int place_at(const Gate& gate, glm::dvec2 p) noexcept {
+  for (int i = 0; i < gate.slot_count; ++i) {
+    if (depth_in(gate, i, p) > 0.0 && is_in_aisle_of(gate, slot_of(gate, i), p)) return i;
+  }
+  return kNoSlot;
+}
+
+// `force`: [N] along the way from `center` to `p`
+glm::dvec2 radial(glm::dvec2 center, glm::dvec2 p, double force) noexcept {
+  const double distance = glm::distance(p, center);
+  return distance > 0.0 ? force / distance * (p - center) : glm::dvec2(0.0);
+}
+
+// A sum of potentials, each a function of the distance from a place or, inside one aisle, of the position along it. They
+// are constant where the aisles on which they depend meet others, so no way through the aisles makes the sum ambiguous.
+glm::dvec2 mechanism_feel(const Gate& gate, glm::dvec2 p) noexcept {
+  glm::dvec2 force{0.0};
+  const int place = place_at(gate, p);
+  if (place != kNoSlot) {
+    const Slot& slot = slot_of(gate, place);
+    force -= radial(slot.at, p, feel_force(slot.feel, depth_in(gate, place, p)));
+  }
+  for (const Aisle& aisle : aisles(gate)) {
+    if (aisle.spring.pieces > 0 && contains(whole(aisle), p, kEdge))
+      force += feel_force(aisle.spring, position_along(aisle, p)) * aisle.along;
+  }
+  const glm::dvec2 neutral = rest_position(gate, kNeutralGear);
+  return force + radial(neutral, p, feel_force(gate.return_feel, glm::distance(p, neutral)));
+}
+
+double max_mechanism_stiffness(const Gate& gate) noexcept {
+  double place = 0.0, spring = 0.0;
+  for (const Slot& slot : slots(gate)) place = std::max(place, -slope_range(slot.feel).min);
+  for (const Aisle& aisle : aisles(gate)) spring = std::max(spring, -slope_range(aisle.spring).min);
+  return place + spring - slope_range(gate.return_feel).min;
+}
+
 }  // namespace
 
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept {
+  if (is_mechanism(gate)) return place_at(gate, point);
   if (std::abs(point.y) <= gate.half_aisle) return kNoSlot;
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   return point.y > 0.0 ? column.forward_slot : column.back_slot;
 }
 
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
+  if (is_mechanism(gate)) return mechanism_feel(gate, proxy);
   const double along = feel_force(shift_curve(gate, proxy), std::abs(proxy.y));
   glm::dvec2 force{feel_force(gate.select_feel, proxy.x), shift_sign(proxy.y) * along};
   for (const Buffer& buffer : buffers(gate)) force += buffer_force(gate, buffer, proxy);
@@ -70,6 +122,7 @@ glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
 }
 
 double max_feel_stiffness(const Gate& gate) noexcept {
+  if (is_mechanism(gate)) return max_mechanism_stiffness(gate);
   double steepest = std::min(slope_range(gate.select_feel).min, slope_range(gate.aisle_feel).min);
   for (const Slot& slot : slots(gate)) steepest = std::min(steepest, slope_range(slot.feel).min);
   return -steepest;

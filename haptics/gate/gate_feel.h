@@ -7,7 +7,7 @@
 
 namespace gearshift::haptics {
 
-// The slot that contains the point; kNoSlot if the point is in the neutral aisle.
+// The slot that contains the point; kNoSlot if the point is in the neutral aisle or, in a mechanism, between places.
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept;
 
 // Force [N] on the lever when the proxy is at this point of free space: the negative gradient of a potential, so that no

@@ -1,7 +1,5 @@
 #include "haptics/gate/gear_selector.h"
 
-#include <cmath>
-
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::haptics {
@@ -13,7 +11,7 @@ int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
   const int index = slot_at(gate, proxy);
   if (index == kNoSlot) return kNeutralGear;
   const Slot& slot = slot_of(gate, index);
-  const double depth = std::abs(proxy.y);
+  const double depth = depth_in(gate, index, proxy);
   if (depth >= slot.engage_depth) return slot.gear;
   return slot.gear == engaged && depth >= slot.release_depth ? engaged : kNeutralGear;
 }

@@ -4,6 +4,8 @@
 
 #include "haptics/files/number_text.h"
 #include "haptics/files/parameter.h"
+#include "haptics/gate/aisle.h"
+#include "haptics/gate/gate_feel.h"
 
 namespace gearshift::haptics {
 namespace {
@@ -36,15 +38,20 @@ bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
   return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer + kSideTolerance;
 }
 
-// New state of a latching lockout, true if closed. Between the two thresholds the state is unchanged.
+// New state of a latching lockout: true if closed, for `only_after` true if open. Between the two thresholds the state
+// is unchanged.
 bool is_latched(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
-                bool was_closed) noexcept {
+                bool was_latched) noexcept {
   if (lockout.kind == LockoutKind::speed) {
     const double speed = std::abs(in.road_speed);  // a speed of NaN leaves the state unchanged
-    return was_closed ? !(speed < lockout.open_below) : speed > lockout.close_above;
+    return was_latched ? !(speed < lockout.open_below) : speed > lockout.close_above;
+  }
+  if (lockout.kind == LockoutKind::only_after) {
+    if (in.gear == kNeutralGear || in.gear == slot_of(gate, lockout.slot).gear) return was_latched;
+    return includes_gear(lockout.only_after, in.gear);
   }
   if (in.gear == lockout.after_gear) return true;
-  return was_closed && !has_left_column(gate, lockout.after_gear, proxy);
+  return was_latched && !has_left_column(gate, lockout.after_gear, proxy);
 }
 
 bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) noexcept {
@@ -56,8 +63,41 @@ bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) no
     case LockoutKind::speed:
     case LockoutKind::after_gear:
       return latched;
+    case LockoutKind::only_after:
+      return !latched;
   }
   return true;
+}
+
+// True if the proxy is in an aisle, but not in the part of it that the passage leaves open.
+bool is_outside_open_part(const Gate& gate, const Slot& place, const Passage& passage, glm::dvec2 proxy) noexcept {
+  for (int i = 0; i < gate.aisle_count; ++i) {
+    if ((place.aisles >> i & 1u) == 0) continue;
+    const AislePart all = whole(gate.aisle[static_cast<std::size_t>(i)]);
+    if (contains(all, proxy, kSideTolerance) && !contains(open_part(gate, passage, i, proxy), proxy, 0.0)) return true;
+  }
+  return false;
+}
+
+// A place's lockout does not close while the lever is beyond it: inside the place, or, if the lever may not leave the
+// place, not yet deep enough in it.
+void add_place_to_passage(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy, Passage& passage) noexcept {
+  const Slot& place = slot_of(gate, lockout.slot);
+  if (lockout.is_leaving && slot_at(gate, proxy) != lockout.slot) return;
+  Passage only = open_passage(gate);
+  if (lockout.is_leaving)
+    only.held_slot = lockout.slot;
+  else
+    only.closed = 1u << lockout.slot;
+  if (is_outside_open_part(gate, place, only, proxy)) return;
+  if (lockout.is_leaving)
+    passage.held_slot = lockout.slot;
+  else
+    passage.closed |= only.closed;
+}
+
+bool is_latching(LockoutKind kind) noexcept {
+  return kind == LockoutKind::speed || kind == LockoutKind::after_gear || kind == LockoutKind::only_after;
 }
 
 void add_to_passage(const Lockout& lockout, Passage& passage) noexcept {
@@ -83,12 +123,16 @@ Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 p
   Passage passage = open_passage(gate);
   std::uint32_t bit = 1u;  // bit of the current lockout in latched_
   for (const Lockout& lockout : lockouts(gate)) {
-    if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
+    if (is_latching(lockout.kind)) {
       latched_ = is_latched(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
     }
     const bool applies = lockout.from_gear == kAnyGear || lockout.from_gear == in.gear;
-    if (applies && is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy))
-      add_to_passage(lockout, passage);
+    if (applies && is_locked(lockout, in, latched_ & bit)) {
+      if (is_mechanism(gate))
+        add_place_to_passage(gate, lockout, proxy, passage);
+      else if (!is_beyond(gate, lockout, proxy))
+        add_to_passage(lockout, passage);
+    }
     bit <<= 1;
   }
   if (is_sequential(gate)) close_ends(gate, in.gear, proxy, passage);
@@ -111,6 +155,14 @@ std::string describe(const Lockout& lockout) {
              number_text(lockout.open_below * kKmhPerMps, 3) + " km/h";
     case LockoutKind::after_gear:
       return std::string("closed for a direct shift from ") + gear_name(lockout.after_gear);
+    case LockoutKind::only_after: {
+      std::string gears;
+      for (int gear = kReverseGear; gear <= kMaxGateGear; ++gear) {
+        if (includes_gear(lockout.only_after, gear))
+          gears += (gears.empty() ? "" : " or ") + std::string(gear_name(gear));
+      }
+      return "open only after " + gears;
+    }
   }
   return "?";
 }

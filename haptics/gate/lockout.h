@@ -15,6 +15,7 @@ struct Passage {
   double select_min = 0.0;  // [m] ends of the neutral aisle, narrowed by lateral lockouts
   double select_max = 0.0;
   std::uint32_t closed = 0;    // one bit per slot: 1 if a wall closes the slot's mouth
+  int held_slot = kNoSlot;     // place of a mechanism that the lever may not leave
   int limited_slot = kNoSlot;  // slot in which synchroniser or torque lock limit the depth
   double depth_min = 0.0;      // [m] allowed range of depth in limited_slot
   double depth_max = 0.0;
@@ -37,7 +38,8 @@ class Lockouts {
   Passage update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept;
 
  private:
-  std::uint32_t latched_ = 0;  // one bit per lockout: 1 if closed by speed or by the last gear
+  std::uint32_t latched_ =
+      0;  // one bit per lockout: 1 if closed by speed or by the last gear, for `only_after` if open
 };
 
 int locked_gear(const Gate& gate, const Lockout& lockout) noexcept;  // the gear that is out of reach while it is closed

@@ -192,7 +192,7 @@ void HapticLoop::follow_lever() noexcept {
 void HapticLoop::limit_depth() noexcept {
   const int slot = load_output_.limited_slot;
   if (slot == kNoSlot || slot != slot_at(gate_, proxy_.position)) return;
-  const double depth = std::abs(proxy_.position.y);
+  const double depth = depth_in(gate_, slot, proxy_.position);
   passage_.limited_slot = slot;
   passage_.depth_min = std::min(load_output_.depth_min, depth);
   passage_.depth_max = std::max(load_output_.depth_max, depth);
@@ -234,7 +234,7 @@ LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
   in.proxy = proxy_.position;
   in.push = push_;
   in.slot = slot_at(gate_, proxy_.position);
-  in.depth = in.slot == kNoSlot ? 0.0 : std::abs(proxy_.position.y);
+  in.depth = in.slot == kNoSlot ? 0.0 : depth_in(gate_, in.slot, proxy_.position);
   in.gear = selector_.gear();
   in.controls = controls_;
   slot_ = in.slot;

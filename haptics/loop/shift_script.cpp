@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::haptics {
@@ -19,13 +21,15 @@ class StrokeWriter {
  public:
   StrokeWriter(dvec2 start, const ShiftStyle& style) : at_(start), style_(style) {}
 
-  void move_to(dvec2 to, double dwell) {
+  // `push`: [N] of the hand during stroke and dwell
+  void move_to(dvec2 to, double dwell, dvec2 push = dvec2(0.0)) {
     const double distance = glm::distance(at_, to);
     if (distance < 1e-6) return;
     HandStroke stroke;
     stroke.to = to;
     stroke.duration = style_.reaction + distance / style_.pace;
     stroke.dwell = dwell;
+    stroke.push = push;
     stroke.pressed_down = pressed_;
     stroke.lifted = lifted_;
     strokes_.push_back(stroke);
@@ -98,6 +102,114 @@ int shift_in_sequence(const Gate& gate, int gear, int to, const ShiftStyle& styl
   return gear;
 }
 
+// A stop on the way through the aisles of a mechanism: a turn or a place.
+struct RouteStop {
+  dvec2 at{0.0};
+  int slot = kNoSlot;
+};
+
+// Points on centre lines between which a hand moves straight: first `from`, then all places, then where aisles meet.
+std::vector<RouteStop> route_stops(const Gate& gate, dvec2 from) {
+  std::vector<RouteStop> stops{{from, kNoSlot}};
+  for (int i = 0; i < gate.slot_count; ++i) stops.push_back({slot_of(gate, i).at, i});
+  const auto all = aisles(gate);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (const std::optional<dvec2> at = meeting_point(all[i], all[k])) stops.push_back({*at, kNoSlot});
+  return stops;
+}
+
+bool is_between(dvec2 p, dvec2 a, dvec2 b) {
+  const double detour = glm::distance(a, p) + glm::distance(p, b) - glm::distance(a, b);
+  return detour < kOnLine && glm::distance(a, p) > kOnLine && glm::distance(p, b) > kOnLine;
+}
+
+// True if one aisle leads straight from a to b, past no other place.
+bool leads_straight(const Gate& gate, dvec2 a, dvec2 b) {
+  const auto places = slots(gate);
+  if (std::any_of(places.begin(), places.end(), [&](const Slot& place) { return is_between(place.at, a, b); }))
+    return false;
+  const auto all = aisles(gate);
+  return std::any_of(all.begin(), all.end(), [&](const Aisle& aisle) {
+    return distance_to(aisle, a) < aisle.half_width && distance_to(aisle, b) < kOnLine;
+  });
+}
+
+// The shortest way through the aisles (Dijkstra) from a point to a place: turns, places on the way, and the place.
+std::vector<RouteStop> route_to(const Gate& gate, dvec2 from, int slot) {
+  const std::vector<RouteStop> stops = route_stops(gate, from);
+  const std::size_t goal = static_cast<std::size_t>(slot) + 1;
+  std::vector<double> length(stops.size(), HUGE_VAL);
+  std::vector<std::size_t> before(stops.size(), 0);
+  std::vector<bool> is_final(stops.size(), false);
+  length[0] = 0.0;
+  for (std::size_t round = 0; round < stops.size(); ++round) {
+    std::size_t here = stops.size();
+    for (std::size_t i = 0; i < stops.size(); ++i)
+      if (!is_final[i] && (here == stops.size() || length[i] < length[here])) here = i;
+    is_final[here] = true;
+    for (std::size_t next = 0; next < stops.size(); ++next) {
+      const double reached = length[here] + glm::distance(stops[here].at, stops[next].at);
+      if (is_final[next] || reached >= length[next] || !leads_straight(gate, stops[here].at, stops[next].at)) continue;
+      length[next] = reached;
+      before[next] = here;
+    }
+  }
+  std::vector<RouteStop> route{stops[goal]};
+  for (std::size_t i = before[goal]; i != 0; i = before[i]) route.push_back(stops[i]);
+  std::reverse(route.begin(), route.end());
+  return route;
+}
+
+bool needs_hold(const Gate& gate, LockoutKind kind, int left, const std::vector<RouteStop>& route) {
+  const auto all = lockouts(gate);
+  return std::any_of(all.begin(), all.end(), [&](const Lockout& lockout) {
+    if (lockout.kind != kind) return false;
+    if (lockout.is_leaving && lockout.slot == left) return true;
+    return std::any_of(route.begin(), route.end(), [&](const RouteStop& stop) { return stop.slot == lockout.slot; });
+  });
+}
+
+// At each stop, the hand pushes against the springs; in the middle of a place, these are all that acts.
+void shift_through_aisles(const Gate& gate, int slot, const ShiftStyle& style, StrokeWriter& writer) {
+  const std::vector<RouteStop> route = route_to(gate, writer.at(), slot);
+  const int left = slot_at(gate, writer.at());
+  writer.hold(needs_hold(gate, LockoutKind::push_down, left, route), needs_hold(gate, LockoutKind::lift, left, route));
+  for (const RouteStop& stop : route)
+    writer.move_to(stop.at, stop.slot == kNoSlot ? style.dwell_neutral : style.dwell_gear, -gate_feel(gate, stop.at));
+  writer.hold(false, false);
+}
+
+std::vector<int> tour_of_places(const Gate& gate) {
+  std::vector<int> order;
+  dvec2 at = rest_position(gate, kNeutralGear);
+  for (int i = 0; i < gate.slot_count; ++i) {
+    if (slot_of(gate, i).gear == kNeutralGear || glm::distance(at, slot_of(gate, i).at) < kOnLine) continue;
+    for (const RouteStop& stop : route_to(gate, at, i))
+      if (stop.slot != kNoSlot && slot_of(gate, stop.slot).gear != kNeutralGear)
+        order.push_back(slot_of(gate, stop.slot).gear);
+    at = slot_of(gate, i).at;
+  }
+  return order;
+}
+
+// A gear that is open only after others: the hand goes through the nearest of these.
+std::vector<int> with_gears_before(const Gate& gate, std::span<const int> gears, int engaged) {
+  std::vector<int> all;
+  for (const int next : gears) {
+    for (const Lockout& lockout : lockouts(gate)) {
+      const bool applies = lockout.kind == LockoutKind::only_after && slot_of(gate, lockout.slot).gear == next;
+      if (!applies || engaged == next || includes_gear(lockout.only_after, engaged)) continue;
+      int nearest = kMaxGateGear;
+      while (!includes_gear(lockout.only_after, nearest)) --nearest;
+      all.push_back(nearest);
+    }
+    all.push_back(next);
+    engaged = next;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<const int> gears,
@@ -109,8 +221,12 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
     writer.move_to({x + (style.leans ? lean_at(gate, x, direction) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = style.engaged;
-  for (const int next : gears) {
+  for (const int next : with_gears_before(gate, gears, gear)) {
     const int index = slot_of_gear(gate, next);
+    if (is_mechanism(gate)) {
+      shift_through_aisles(gate, index, style, writer);
+      continue;
+    }
     const dvec2 rest = rest_position(gate, next);
     if (slot_at(gate, writer.at()) != kNoSlot) writer.move_to({writer.at().x, 0.0}, style.dwell_neutral);
     if (is_sequential(gate)) {
@@ -135,6 +251,7 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
 }
 
 std::vector<int> tour_order(const Gate& gate) {
+  if (is_mechanism(gate)) return tour_of_places(gate);
   std::vector<int> order;
   if (is_sequential(gate)) {
     for (int gear = 1; gear <= gate.sequential_gears; ++gear) order.push_back(gear);

@@ -28,7 +28,8 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, glm::dvec2 start, std::s
                                       const ShiftStyle& style = {});
 
 // All gears of the gate in the order of the paper's Fig. 9: forward gears rising, then reverse. In a sequential gate, the
-// forward gears come again on the way down.
+// forward gears come again on the way down. In a mechanism of aisles: all places in the order of the file, and those on
+// the way from one to the next.
 std::vector<int> tour_order(const Gate& gate);
 
 // Hand settings for the tour through all gears, the benchmarks and the tests. The effort compensates for the low

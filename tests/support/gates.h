@@ -28,6 +28,9 @@ inline double paper_feel() {  // [N/m]
 
 inline constexpr const char* kSequentialGate = "sequential_six";
 
+// The shipped mechanisms of aisles, which no car has.
+inline constexpr const char* kMechanisms[] = {"selector_p_r_n_d", "crane_cross"};
+
 // The shipped gates with a slot per gear.
 inline std::vector<std::string> shipped_names() {
   return {"paper",
@@ -37,7 +40,11 @@ inline std::vector<std::string> shipped_names() {
           "six_speed_r_left_down",
           "six_speed_r_right_down",
           "dog_leg_five",
-          "four_speed"};
+          "four_speed",
+          "six_speed_r_left_spring",
+          "open_gate_six",
+          "seven_speed",
+          "three_on_the_tree"};
 }
 
 }  // namespace gearshift::test

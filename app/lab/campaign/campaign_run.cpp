@@ -262,7 +262,7 @@ std::vector<haptics::GateLayout> shipped_layouts(const std::filesystem::path& fo
   std::sort(files.begin(), files.end());
   std::vector<haptics::GateLayout> layouts;
   for (const std::filesystem::path& file : files) {
-    const haptics::GateLayout layout = haptics::read_gate_layout(file);
+    const haptics::GateLayout layout = haptics::read_gearbox_layout(file);
     if (layout.sequential_gears == 0) layouts.push_back(layout);
   }
   return layouts;

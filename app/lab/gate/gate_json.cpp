@@ -33,7 +33,8 @@ Json aisles_json(const haptics::GateDescription& list) {
 Json junctions_json(const GateReport& report) {
   Json all = Json::array();
   for (const haptics::JunctionInfo& junction : report.description.junctions) {
-    const bool neutral = static_cast<int>(all.size()) == report.gate.neutral_column;
+    const bool neutral =
+        !haptics::is_mechanism(report.gate) && static_cast<int>(all.size()) == report.gate.neutral_column;
     all.push_back({{"name", junction.name},
                    {"center_mm", point_json(junction.center)},
                    {"open", open_directions(junction)},
@@ -70,7 +71,7 @@ Json pairs_json(const haptics::GateDescription& list) {
 Json gears_json(const GateReport& report) {
   Json all = Json::array();
   for (const haptics::Slot& slot : haptics::slots(report.gate)) {
-    all.push_back({{"name", haptics::gear_name(slot.gear)},
+    all.push_back({{"name", haptics::gear_label(report.gate, slot.gear)},
                    {"junction", junction_name(report, slot)},
                    {"side", to_string(slot.side)},
                    {"rest_mm", point_json(haptics::rest_position(report.gate, slot.gear))},
@@ -82,13 +83,28 @@ Json gears_json(const GateReport& report) {
   return all;
 }
 
+Json places_json(const haptics::Gate& gate) {
+  Json all = Json::array();
+  for (const haptics::Slot& place : haptics::slots(gate)) {
+    all.push_back({{"name", haptics::gear_label(gate, place.gear)},
+                   {"at_mm", point_json(place.at)},
+                   {"radius_mm", millimetres(place.end)},
+                   {"engage_depth_mm", millimetres(place.engage_depth)},
+                   {"release_depth_mm", millimetres(place.release_depth)},
+                   {"neutral", place.gear == haptics::kNeutralGear}});
+  }
+  return all;
+}
+
 Json lockouts_json(const haptics::Gate& gate) {
   Json all = Json::array();
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    Json one = {{"gear", haptics::gear_name(haptics::locked_gear(gate, lockout))},
+    Json one = {{"gear", haptics::gear_label(gate, haptics::locked_gear(gate, lockout))},
                 {"kind", haptics::to_string(lockout.kind)}};
     one["barrier_x_mm"] = lockout.lateral ? Json(millimetres(lockout.barrier)) : Json(nullptr);
     if (lockout.kind == haptics::LockoutKind::after_gear) one["after"] = haptics::gear_name(lockout.after_gear);
+    if (haptics::is_mechanism(gate)) one["leaving"] = lockout.is_leaving;
+    if (lockout.kind == haptics::LockoutKind::only_after) one["when"] = haptics::describe(lockout);
     if (lockout.kind == haptics::LockoutKind::speed) {
       one["close_above_kmh"] = kmh(lockout.close_above);
       one["open_below_kmh"] = kmh(lockout.open_below);
@@ -118,7 +134,10 @@ std::string gate_json(const GateReport& report) {
   json["junctions"] = junctions_json(report);
   json["walls"] = walls_json(report.description);
   json["wall_pairs"] = pairs_json(report.description);
-  json["gears"] = gears_json(report);
+  if (haptics::is_mechanism(report.gate))
+    json["places"] = places_json(report.gate);
+  else
+    json["gears"] = gears_json(report);
   json["buffers"] = buffers_json(report.gate);
   json["lockouts"] = lockouts_json(report.gate);
   // Replaces invalid UTF-8, which file names may contain.

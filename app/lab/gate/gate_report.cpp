@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 namespace gearshift::lab {
 
 double millimetres(double metres) {
@@ -33,9 +35,10 @@ PairSize pair_size(const haptics::GateDescription& list, std::size_t pair) {
   }
   const haptics::WallInfo& a = list.walls[size.walls.at(0)];
   const haptics::WallInfo& b = list.walls[size.walls.at(1)];
-  const bool horizontal = list.wall_pairs.at(pair).horizontal;
-  const auto along = [&](glm::dvec2 p) { return horizontal ? p.x : p.y; };
-  size.width = horizontal ? std::abs(a.from.y - b.from.y) : std::abs(a.from.x - b.from.x);
+  const glm::dvec2 direction = (a.to - a.from) / glm::distance(a.from, a.to);
+  const auto along = [&](glm::dvec2 p) { return glm::dot(p, direction); };
+  const glm::dvec2 off = b.from - a.from;
+  size.width = std::abs(direction.x * off.y - direction.y * off.x);
   const double from = std::max(std::min(along(a.from), along(a.to)), std::min(along(b.from), along(b.to)));
   const double to = std::min(std::max(along(a.from), along(a.to)), std::max(along(b.from), along(b.to)));
   size.length = to - from;

@@ -10,6 +10,7 @@
 #include "app/base/svg.h"
 #include "app/lab/gate/slot_plot.h"
 #include "app/lessons/report/gate_outline.h"
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/lockout.h"
 
 namespace gearshift::lab {
@@ -64,7 +65,11 @@ void draw_junctions(base::Svg& svg, const haptics::Gate& gate, const haptics::Ga
 void draw_lockouts(base::Svg& svg, const haptics::Gate& gate) {
   const base::Pen pen{base::kLockoutColour, 1.2, kLongDash};
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    if (lockout.lateral) {
+    if (haptics::is_mechanism(gate)) {
+      const haptics::Slot& place = haptics::slot_of(gate, lockout.slot);
+      const double radius = lockout.is_leaving ? haptics::kHeldRadius : haptics::kClosedRadius;
+      svg.ring(lessons::on_page(place.at), lessons::mm(radius * place.end), {base::kLockoutColour, 0.6, "1 1"});
+    } else if (lockout.lateral) {
       svg.line(lessons::on_page({lockout.barrier, -gate.half_aisle}),
                lessons::on_page({lockout.barrier, gate.half_aisle}), pen);
     } else {
@@ -104,20 +109,31 @@ class Legend {
   glm::dvec2 at_;
 };
 
+void draw_lockout_legend(Legend& legend, const haptics::Gate& gate) {
+  for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
+    const char* gear = haptics::gear_label(gate, haptics::locked_gear(gate, lockout));
+    legend.line(
+        {base::kLockoutColour, 1.2, kLongDash},
+        fmt::format("{} of {}: {}", lockout.is_leaving ? "way out" : "lockout", gear, haptics::describe(lockout)));
+  }
+}
+
 // Lists only the elements that this gate has.
 void draw_legend(base::Svg& svg, const haptics::Gate& gate, glm::dvec2 at) {
   Legend legend(svg, at);
-  legend.ring("neutral: the lever returns here");
+  if (haptics::is_mechanism(gate)) {
+    legend.ring("the lever counts as in this place");
+    legend.dot("the middle of a place");
+    legend.line({base::kClosedColour, lessons::kStopWidth}, "closed side of a junction");
+    return draw_lockout_legend(legend, gate);
+  }
+  legend.ring(feel_force(gate.select_feel, gate.select_max) == 0.0 ? "neutral" : "neutral: the lever returns here");
   legend.line({base::kGearColour, 0.3}, "the gear engages here");
   legend.line({base::kGearColour, 0.3, base::kShortDash}, "the gear releases here");
   legend.dot("the lever rests here in gear");
   legend.line({base::kClosedColour, lessons::kStopWidth}, "closed side of a junction");
   if (gate.buffer_count > 0) legend.buffer("buffer: deflects the lever into the slots");
-  for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    const char* gear = haptics::gear_name(haptics::locked_gear(gate, lockout));
-    legend.line({base::kLockoutColour, 1.2, kLongDash},
-                fmt::format("lockout of {}: {}", gear, haptics::describe(lockout)));
-  }
+  draw_lockout_legend(legend, gate);
 }
 
 double legend_height(const haptics::Gate& gate) {
@@ -131,6 +147,13 @@ void draw_scale(base::Svg& svg, glm::dvec2 at) {
     svg.line(at + glm::dvec2(x, -1.0), at + glm::dvec2(x, 1.0), {base::kInk, 0.4});
   }
   svg.text(at + glm::dvec2(kLength + 2.0, 0.9), {2.6, base::kInk}, "20 mm");
+}
+
+// The slot whose force is plotted: the first one, in a mechanism the first place with a detent.
+const haptics::Slot& plotted_slot(const haptics::Gate& gate) {
+  for (const haptics::Slot& slot : haptics::slots(gate))
+    if (slot.feel.pieces > 0) return slot;
+  return haptics::slot_of(gate, 0);
 }
 
 }  // namespace
@@ -152,9 +175,9 @@ std::string gate_svg(const haptics::Gate& gate, const haptics::GateDescription& 
   draw_lockouts(svg, gate);
   lessons::draw_gate_walls(svg, description);
   lessons::draw_gears(svg, gate);
-  draw_junctions(svg, gate, description);
+  if (!haptics::is_mechanism(gate)) draw_junctions(svg, gate, description);
   draw_scale(svg, {plate.x, plate.bottom() + kScaleHeight});
-  draw_slot_plot(svg, gate, haptics::slot_of(gate, 0), plot);
+  draw_slot_plot(svg, gate, plotted_slot(gate), plot);
   draw_legend(svg, gate, legend);
   return std::move(svg).finish();
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -24,11 +25,14 @@ void add_aisles(Text out, const haptics::GateDescription& list) {
 void add_junctions(Text out, const GateReport& report) {
   fmt::format_to(out, "\n{:<10}{:>8}  {:<28}{}\n", "junction", "x [mm]", "open to", "closed side");
   const auto& junctions = report.description.junctions;
+  const bool is_column = !haptics::is_mechanism(report.gate);
+  const bool returns = report.layout.feel.center_force > 0.0;
   for (std::size_t i = 0; i < junctions.size(); ++i) {
-    const bool neutral = static_cast<int>(i) == report.gate.neutral_column;
-    fmt::format_to(out, "{:<10}{:>8.1f}  {:<28}{}{}\n", junctions[i].name, millimetres(junctions[i].center.x),
-                   fmt::format("{}", fmt::join(open_directions(junctions[i]), ", ")),
-                   junctions[i].buffer ? "buffer" : "-", neutral ? ", neutral: the lever returns here" : "");
+    const bool neutral = is_column && static_cast<int>(i) == report.gate.neutral_column;
+    fmt::format_to(
+        out, "{:<10}{:>8.1f}  {:<28}{}{}\n", junctions[i].name, millimetres(junctions[i].center.x),
+        fmt::format("{}", fmt::join(open_directions(junctions[i]), ", ")), junctions[i].buffer ? "buffer" : "-",
+        neutral ? (returns ? ", neutral: the lever returns here" : ", neutral: nothing returns the lever") : "");
   }
 }
 
@@ -37,7 +41,7 @@ void add_gears(Text out, const GateReport& report) {
                  "engages at", "releases at", "end [mm]", "pull-out [N]");
   for (const haptics::Slot& slot : haptics::slots(report.gate)) {
     fmt::format_to(out, "{:<6}{:<10}{:<10}{:>10.1f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.1f}\n",
-                   haptics::gear_name(slot.gear), junction_name(report, slot), to_string(slot.side),
+                   haptics::gear_label(report.gate, slot.gear), junction_name(report, slot), to_string(slot.side),
                    millimetres(slot.rest), millimetres(slot.engage_depth), millimetres(slot.release_depth),
                    millimetres(slot.end), haptics::is_sequential(report.gate) ? 0.0 : report.layout.feel.lock_force);
   }
@@ -45,6 +49,22 @@ void add_gears(Text out, const GateReport& report) {
   fmt::format_to(out, "one stroke is one gear: {} N", haptics::gear_name(haptics::kReverseGear));
   for (int gear = 1; gear <= report.gate.sequential_gears; ++gear) fmt::format_to(out, " {}", gear);
   fmt::format_to(out, "\n");
+}
+
+// The places of a mechanism.
+void add_places(Text out, const haptics::Gate& gate) {
+  fmt::format_to(out, "\n{:<10}{:>10}{:>10}{:>14}{:>16}{:>16}{:>12}\n", "place", "x [mm]", "y [mm]", "radius [mm]",
+                 "engages within", "releases beyond", "detent [N]");
+  for (const haptics::Slot& place : haptics::slots(gate)) {
+    double lock = 0.0;
+    for (double depth = 0.0; depth < place.end; depth += 1e-5)
+      lock = std::max(lock, haptics::feel_force(place.feel, depth));
+    fmt::format_to(out, "{:<10}{:>10.1f}{:>10.1f}{:>14.1f}{:>16.1f}{:>16.1f}{:>12.1f}{}\n",
+                   haptics::gear_label(gate, place.gear), millimetres(place.at.x), millimetres(place.at.y),
+                   millimetres(place.end), millimetres(place.end - place.engage_depth),
+                   millimetres(place.end - place.release_depth), lock,
+                   place.gear == haptics::kNeutralGear ? "  neutral" : "");
+  }
 }
 
 void add_pairs(Text out, const haptics::GateDescription& list) {
@@ -56,15 +76,18 @@ void add_pairs(Text out, const haptics::GateDescription& list) {
   }
 }
 
+std::string place_of_lockout(const haptics::Gate& gate, const haptics::Lockout& lockout) {
+  if (haptics::is_mechanism(gate)) return lockout.is_leaving ? "on the way out of the place" : "round the place";
+  if (!lockout.lateral) return "in the mouth of the slot";
+  return fmt::format("across the aisle at x = {:.1f} mm", millimetres(lockout.barrier));
+}
+
 void add_lockouts(Text out, const haptics::Gate& gate) {
   if (gate.lockout_count == 0) return;
   fmt::format_to(out, "\n{:<10}{:<34}{}\n", "lockout", "where", "when");
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    const std::string where = lockout.lateral
-                                  ? fmt::format("across the aisle at x = {:.1f} mm", millimetres(lockout.barrier))
-                                  : "in the mouth of the slot";
-    fmt::format_to(out, "{:<10}{:<34}{}\n", haptics::gear_name(haptics::locked_gear(gate, lockout)), where,
-                   haptics::describe(lockout));
+    fmt::format_to(out, "{:<10}{:<34}{}\n", haptics::gear_label(gate, haptics::locked_gear(gate, lockout)),
+                   place_of_lockout(gate, lockout), haptics::describe(lockout));
   }
 }
 
@@ -75,13 +98,16 @@ std::string gate_table(const GateReport& report) {
   std::string text;
   const Text out(text);
   fmt::format_to(out, "{} ({})\n", report.layout.name, report.layout.file);
-  fmt::format_to(out, "{} aisles, {} junctions, {} wall pairs, {} gears, {} lockouts\n", list.aisles.size(),
+  fmt::format_to(out, "{} aisles, {} junctions, {} wall pairs, {} {}, {} lockouts\n", list.aisles.size(),
                  list.junctions.size(), list.wall_pairs.size(),
                  haptics::is_sequential(report.gate) ? report.gate.sequential_gears + 1 : report.gate.slot_count,
-                 report.gate.lockout_count);
+                 haptics::is_mechanism(report.gate) ? "places" : "gears", report.gate.lockout_count);
   add_aisles(out, list);
   add_junctions(out, report);
-  add_gears(out, report);
+  if (haptics::is_mechanism(report.gate))
+    add_places(out, report.gate);
+  else
+    add_gears(out, report);
   add_pairs(out, list);
   add_lockouts(out, report.gate);
   return text;

@@ -41,6 +41,7 @@ class SlotPlot {
     svg_.rect(box_, base::kFreeColour);
     svg_.rect(band(0.0, gate_.half_aisle), base::kAisleShade);
     svg_.rect(band(gate_.half_aisle, mouth_), base::kMouthShade);
+    if (haptics::is_mechanism(gate_)) return;
     const base::Type name{2.1, base::kSoftInk, "middle"};
     svg_.text({x(gate_.half_aisle / 2.0), box_.y + 3.2}, name, "aisle");
     if (gate_.chamfer > 0.0) svg_.text({x((gate_.half_aisle + mouth_) / 2.0), box_.y + 3.2}, name, "mouth");

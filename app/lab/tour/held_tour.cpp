@@ -69,7 +69,7 @@ class HeldDrive {
   void begin() {
     std::string order;
     for (const int gear : result_.wanted)
-      order += fmt::format("{}{}", order.empty() ? "" : ", ", haptics::gear_name(gear));
+      order += fmt::format("{}{}", order.empty() ? "" : ", ", haptics::gear_label(runtime_.gate(), gear));
     output_(fmt::format("The tour visits these gears: {}.", order));
   }
 
@@ -98,7 +98,7 @@ class HeldDrive {
   }
   void ask_for_gear() {
     if (next_ < result_.wanted.size())
-      output_(fmt::format("Shift into {}.", haptics::gear_name(result_.wanted[next_])));
+      output_(fmt::format("Shift into {}.", haptics::gear_label(runtime_.gate(), result_.wanted[next_])));
   }
 
   void read_answer() {
@@ -154,7 +154,7 @@ class HeldDrive {
   void on_gear_engaged(const haptics::HapticEvent& event) {
     const int gear = static_cast<int>(event.value);
     result_.engaged.push_back({gear, seconds_at(event.time_ns)});
-    output_(fmt::format("{} engaged", haptics::gear_name(gear)));
+    output_(fmt::format("{} engaged", haptics::gear_label(runtime_.gate(), gear)));
     if (next_ == result_.wanted.size() || gear != result_.wanted[next_]) return;
     ++next_;
     if (is_armed_) ask_for_gear();

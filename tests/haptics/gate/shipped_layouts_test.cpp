@@ -1,6 +1,7 @@
 // Tests that the gates shipped with the program have the right gears and fit the paper's joystick.
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -33,6 +34,10 @@ constexpr ShippedGate kShippedGates[] = {
     {"six_speed_r_right_down", "135-", "246R", 1, 0},
     {"dog_leg_five", "R24", "135", 0, 2},
     {"four_speed", "-13", "R24", 2, 0},
+    {"six_speed_r_left_spring", "R135", "-246", 1, 0},
+    {"open_gate_six", "R135", "-246", 2, 0},
+    {"seven_speed", "R1357", "-246-", 2, 0},
+    {"three_on_the_tree", "R2", "13", 0, 1},
     {"sequential_six", "-", "+", 0, 3},
 };
 
@@ -66,9 +71,11 @@ TEST_CASE("every shipped gate is listed here and in the program") {
   for (const auto& entry : std::filesystem::directory_iterator(GEARSHIFT_ASSETS "/gates")) {
     if (entry.path().extension() == ".toml") found.insert(entry.path().stem().string());
   }
+  for (const char* name : kMechanisms) expected.insert(name);
   CHECK(found == expected);
   auto names = shipped_names();
   names.emplace_back(kSequentialGate);
+  names.insert(names.end(), std::begin(kMechanisms), std::end(kMechanisms));
   CHECK(std::set<std::string>(names.begin(), names.end()) == expected);
 }
 

@@ -47,9 +47,12 @@ int reached(const haptics::Gate& gate, const Aim& aim) {
   hand.aim_noise = kAimNoise;
   hand.seed = aim.seed;
   const int gears[] = {aim.from, aim.to};
-  const std::span<const int> route = aim.from == haptics::kNeutralGear ? std::span(gears).subspan(1) : std::span(gears);
-  std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, config.start, route, aimed_style());
-  if (aim.from != haptics::kNeutralGear) strokes.erase(strokes.begin());  // the lever is already in the gear aim.from
+  haptics::ShiftStyle style = aimed_style();
+  style.engaged = aim.from;
+  const bool starts_in_slot = aim.from != haptics::kNeutralGear && !is_mechanism(gate);
+  const std::span<const int> route = starts_in_slot ? std::span(gears) : std::span(gears).subspan(1);
+  std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, config.start, route, style);
+  if (starts_in_slot) strokes.erase(strokes.begin());  // the lever is already in the gear aim.from
   haptics::ScriptedHand driver(hand, std::move(strokes), 0.001);
   haptics::SimulatedRun run(config, driver);
   while (run.time() < driver.duration()) run.step();
@@ -77,8 +80,8 @@ BenchRow intent_row(const haptics::Gate& gate, const std::string& name, int aims
     const Aim aim = random_aim(gate, random);
     const int reached_gear = reached(gate, aim);
     if (reached_gear == aim.to || ++misses > kMaxListedMisses) continue;
-    listed += std::string(" ") + haptics::gear_name(aim.from) + ">" + haptics::gear_name(aim.to) + ":" +
-              haptics::gear_name(reached_gear);
+    listed += std::string(" ") + gear_label(gate, aim.from) + ">" + gear_label(gate, aim.to) + ":" +
+              gear_label(gate, reached_gear);
   }
   return answers_design(Design::intent,
                         {"intent", name, 100.0 * (aims - misses) / aims, "% as intended", 99.0, true,

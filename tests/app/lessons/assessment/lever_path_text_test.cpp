@@ -27,6 +27,8 @@ TEST_CASE("the path is described: straight, across the aisle with or against the
   CHECK(describe_lever_path(six, 5, 6) == "Straight back.");
   CHECK(describe_lever_path(six, kNeutralGear, kReverseGear) ==
         "Lift the ring: to the left against the spring, then forward.");
+  const Gate open = shipped_gate("open_gate_six");  // no spring
+  CHECK(describe_lever_path(open, 2, 3) == "Into neutral, to the right, then forward.");
   const Gate pushed = shipped_gate("six_speed_r_left_down");
   CHECK(describe_lever_path(pushed, kNeutralGear, kReverseGear) ==
         "Hold the knob down: to the left against the spring, then back.");
