@@ -17,7 +17,9 @@
 #include "app/lessons/assessment/grade.h"
 #include "app/lessons/coach/coach.h"
 #include "app/lessons/coach/shipped_lessons.h"
+#include "app/lessons/report/report_json.h"
 #include "app/session/recording_file.h"
+#include "app/verbs/print_json.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
 #include "haptics/files/resolve_path.h"
@@ -88,6 +90,7 @@ class Trials {
     // If the disk was full, deleting unused recordings may have made room. Then try again to save the results.
     if (remove_unreferenced() && coach_.needs_room()) coach_.flush();
     report_coach_problem();
+    if (trials_.json) print_document();
     if (number == trials_.runs && !is_interrupted_) return coach_.view().result->passed;
     base::print_message("interrupted {} run {} of {}", is_interrupted_ ? "during" : "before",
                         number + (is_interrupted_ ? 0 : 1), trials_.runs);
@@ -125,12 +128,34 @@ class Trials {
     coach_.leave();  // no effect unless the learner gave up or the run was interrupted
     print_new_shifts();
     report_coach_problem();
-    print_result(coach_.view());
+    trials_.json ? add_run(drive) : print_result(coach_.view());
+  }
+
+  void add_run(const lessons::LessonDriveConfig& drive) {
+    const lessons::CoachView& view = coach_.view();
+    nlohmann::ordered_json run{{"seed", drive.seed}, {"retention_test", view.retention}};
+    if (view.run > 0) run["run"] = view.run;
+    if (!drive.trace.empty()) run["recording"] = drive.trace.string();
+    if (!view.mastery.empty()) run["mastery"] = view.mastery;
+    run["help"] = {{"lever", drive.guidance}, {"pedals", 0.0}};
+    run.update(lessons::result_json(*view.result, view.norm));
+    runs_.push_back(std::move(run));
+  }
+
+  void print_document() const {
+    nlohmann::ordered_json document{{"lesson", trials_.drive.lesson.key},
+                                    {"title", trials_.drive.lesson.title},
+                                    {"car", trials_.drive.car.name},
+                                    {"gate", trials_.drive.gate.name}};
+    if (!trials_.learner.empty()) document["learner"] = coach_.view().learner;
+    document["runs"] = runs_;
+    print_json(document);
   }
 
   // Prints the lesson's goal and guidance. Called only after the first cycle, so that a lesson that cannot start prints
   // only an error message.
   void print_start() {
+    if (trials_.json) return;
     if (!std::exchange(has_printed_goal_, true))
       base::print_out("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
     if (!std::exchange(has_printed_guidance_, true)) print_guidance();
@@ -252,6 +277,7 @@ class Trials {
   std::size_t printed_shifts_ = 0;  // number of printed shifts of the current run
   std::set<std::string> automatic_recordings_;
   std::vector<std::string> reported_problems_;
+  nlohmann::ordered_json runs_ = nlohmann::ordered_json::array();
   bool is_interrupted_ = false;  // a signal stopped the current run; the run counts as abandoned
   bool has_saved_ = false, has_reported_recording_ = false, has_printed_goal_ = false, has_printed_guidance_ = false;
 };

@@ -17,6 +17,7 @@ struct LessonTrials {
   std::string learner;                      // empty: nothing is saved
   base::HistoryLocation history;            // if this is unavailable, nothing is saved and the reason is reported
   bool prints_shifts = false;               // print a line for each shift after the shift was saved
+  bool json = false;                        // print one JSON document at the end instead of text
 };
 
 // Drives the runs and prints the coach's results. Problems with the history are printed to stderr and do not stop the

@@ -48,7 +48,7 @@ struct LessonArguments {
   std::string learner, database;
   std::optional<lessons::LessonMode> mode;
   int runs = 1;
-  bool guided = false, verbose = false;
+  bool guided = false, verbose = false, json = false;
 };
 
 // Returns the command-line option if it was given, otherwise the lesson's value, otherwise the fallback.
@@ -105,6 +105,7 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   if (!arguments.learner.empty()) trials.history = base::history_location(arguments.database);
   check_history(arguments.trace, trials.history.file);
   trials.prints_shifts = arguments.verbose;
+  trials.json = arguments.json;
   return trials;
 }
 
@@ -162,7 +163,10 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   add_mode_option(*verb, arguments->mode);
   verb->add_flag("--guided", arguments->guided, "choose the guidance automatically from this learner's past runs")
       ->excludes(guidance);
-  verb->add_flag("--verbose", arguments->verbose, "print a line after each shift is saved");
+  CLI::Option* verbose = verb->add_flag("--verbose", arguments->verbose, "print a line after each shift is saved");
+  verb->add_flag("--json", arguments->json,
+                 "print grade, verdict, errors, figures and shifts of each run as JSON instead")
+      ->excludes(verbose);
   verb->callback([arguments, &action] { action = [arguments] { return run_lesson(*arguments); }; });
 }
 

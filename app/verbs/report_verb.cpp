@@ -27,9 +27,11 @@
 #include "app/lessons/report/learner_table.h"
 #include "app/lessons/report/report_csv.h"
 #include "app/lessons/report/report_files.h"
+#include "app/lessons/report/report_json.h"
 #include "app/lessons/report/report_page.h"
 #include "app/verbs/distinct_outputs.h"
 #include "app/verbs/lesson_options.h"
+#include "app/verbs/print_json.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
@@ -39,7 +41,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReportHelp =
-    "Show the results of all learners, or of one learner, as a table, a web page or CSV files.";
+    "Show the results of all learners, or of one learner, as a table, a web page, CSV files or JSON.";
 constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
@@ -68,7 +70,7 @@ struct ReportArguments {
   std::string separator = "comma", decimal;     // decimal: empty, "point" or "comma"
   std::optional<NumberedText> comment, edit;    // `comment`: run number, text; `edit`: comment number, new text
   std::optional<std::int64_t> deleted_comment;  // number of the comment to delete
-  bool csv = false, sets_next = false, deletes_learner = false, yes = false;
+  bool csv = false, json = false, sets_next = false, deletes_learner = false, yes = false;
 };
 
 bool has_instructor_options(const ReportArguments& arguments) {
@@ -111,6 +113,12 @@ int report_class(const ReportArguments& arguments, lessons::History& history) {
   std::vector<lessons::LearnerHistory> all;
   for (const lessons::LearnerRow& row : history.learners()) all.push_back(lessons::read_learner(history, row));
   const std::vector<lessons::Lesson> lessons = lessons::shipped_lessons();
+  if (arguments.json) {
+    auto json = nlohmann::ordered_json{{"learners", nlohmann::ordered_json::array()}};
+    for (const lessons::LearnerHistory& each : all) json["learners"].push_back(lessons::standing_json(each, lessons));
+    print_json(json);
+    return 0;
+  }
   if (arguments.out.empty()) {
     base::print_out("{}", lessons::learner_table(all, lessons));
     return 0;
@@ -275,7 +283,9 @@ int report_learner(const ReportArguments& arguments, lessons::History& history) 
   lessons::LearnerRow learner = known_learner(history, arguments.learner);
   apply_instructor_options(arguments, history, learner);
   if (!arguments.out.empty()) write_report(arguments, history, learner);
-  if (arguments.out.empty() && !has_instructor_options(arguments))
+  if (arguments.json)
+    print_json(lessons::history_json(lessons::read_learner(history, learner), lessons::shipped_lessons()));
+  else if (arguments.out.empty() && !has_instructor_options(arguments))
     base::print_out("{}", lessons::run_table(lessons::read_learner(history, learner)));
   return 0;
 }
@@ -289,7 +299,8 @@ int run_report(const ReportArguments& arguments) {
   if (!fs::exists(file, error) && !error) {
     if (!arguments.database.empty() || !arguments.learner.empty())
       throw std::runtime_error(fmt::format("{}: history not found", haptics::printable(file.string())));
-    base::print_out("No lesson has been driven yet.\n");
+    arguments.json ? print_json({{"learners", nlohmann::ordered_json::array()}})
+                   : base::print_out("No lesson has been driven yet.\n");
     return 0;
   }
   if (arguments.deletes_learner) return delete_history(arguments, file);
@@ -331,6 +342,9 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   CLI::Option* csv =
       verb->add_flag("--csv", arguments->csv, "also write CSV files: of a learner, runs, shifts and driving errors")
           ->needs(out);
+  CLI::Option* json =
+      verb->add_flag("--json", arguments->json, "print JSON to stdout instead of a table: of a learner, with all runs")
+          ->excludes(out);
   verb->add_option("--separator", arguments->separator, "between the fields of CSV files: comma, semicolon or tab")
       ->type_name("NAME")
       ->check(CLI::IsMember(kSeparators).description(""))
@@ -342,7 +356,8 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
       ->needs(csv);
   CLI::Option* comment = verb->add_option("--comment", arguments->comment, "add a comment to a run")
                              ->type_name("RUN TEXT")
-                             ->needs(learner);
+                             ->needs(learner)
+                             ->excludes(json);
   CLI::Option* by = verb->add_option("--by", arguments->by, "comment author")
                         ->type_name("NAME")
                         ->check(check_author_name)
@@ -350,22 +365,26 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   comment->needs(by);
   CLI::Option* edit = verb->add_option("--edit-comment", arguments->edit, "replace the text of a comment")
                           ->type_name("COMMENT TEXT")
-                          ->needs(learner);
+                          ->needs(learner)
+                          ->excludes(json);
   CLI::Option* deleted_comment =
       verb->add_option("--delete-comment", arguments->deleted_comment, "permanently delete a comment")
           ->type_name("COMMENT")
-          ->needs(learner);
+          ->needs(learner)
+          ->excludes(json);
   CLI::Option* next =
       verb->add_option("--next", arguments->next, "set the next lesson; \"\" returns to the suggested lesson")
           ->type_name("LESSON")
-          ->needs(learner);
+          ->needs(learner)
+          ->excludes(json);
   CLI::Option* renames =
       verb->add_option("--rename", arguments->name, "give the learner another name")->type_name("NAME")->needs(learner);
-  renames->check(validate_learner_name);
+  renames->check(validate_learner_name)->excludes(json);
   CLI::Option* erases =
       verb->add_flag("--delete", arguments->deletes_learner, "permanently delete this learner's results and recordings")
           ->needs(learner)
           ->excludes(out)
+          ->excludes(json)
           ->excludes(comment)
           ->excludes(edit)
           ->excludes(deleted_comment)

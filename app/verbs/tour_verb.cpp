@@ -31,6 +31,7 @@ struct TourVerbArguments {
   TourArguments tour;
   std::string device{kNoStick};
   double seconds = 300.0;  // [s] maximum duration of a tour with a stick
+  bool json = false;
 };
 
 void print_files(const lab::TourSetup& setup) {
@@ -76,17 +77,17 @@ int run_held_tour(const TourVerbArguments& arguments) {
 }
 
 // Runs the tour with a simulated hand. Creates the output folder only after all arguments are checked.
-int run_tour(const TourArguments& arguments) {
+int run_tour(const TourArguments& arguments, bool json) {
   const lab::TourSetup setup = make_tour_setup(arguments);
   base::make_folder(setup.folder);
   base::ProgressBar bar;
   const lab::TourProgress progress = [&](std::string_view part, double fraction) { bar.show(part, fraction); };
   const lab::TourResult result = lab::drive_tour(setup, progress);
   bar.clear();
-  print_tour(setup, result);
+  json ? print_tour_json(setup, result) : print_tour(setup, result);
   lab::draw_tour(setup, result, progress);
   bar.clear();
-  print_files(setup);
+  if (!json) print_files(setup);
   if (!result.complete()) base::print_message("the simulated hand did not engage every gear in order");
   return result.complete() && result.lost.times == 0 ? 0 : 1;
 }
@@ -112,9 +113,10 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
       ->check(number_between(1.0, 3600.0))
       ->needs(device)
       ->capture_default_str();
+  verb->add_flag("--json", arguments->json, "print JSON to stdout instead of text")->excludes(device);
   verb->callback([arguments, &action] {
     action = [arguments] {
-      return arguments->device == kNoStick ? run_tour(arguments->tour) : run_held_tour(*arguments);
+      return arguments->device == kNoStick ? run_tour(arguments->tour, arguments->json) : run_held_tour(*arguments);
     };
   });
 }

@@ -67,6 +67,18 @@ check "no folder for recordings: the lesson is driven" learn nowhere hill_start 
 check "and that is reported" test "$(wc -l <nowhere.err)" -eq 1
 rm data/gearshift/recordings
 
+# One JSON document, with what the text says.
+json() { python3 -c "import json; d = json.load(open('json.txt')); runs = d['runs']; run = runs[-1]; assert $1, run"; }
+check "JSON" learn json skip_shifts --json
+check "has grade and verdict" json "run['verdict'] == 'passed' and run['grade'] >= 6 and d['car'] == 'hatchback'"
+check "figures with norms" json "len(run['figures']) == 7 and all(f['norm']['up_to'] > f['norm']['typical'] for f in run['figures'])"
+check "and the help of each limb" json "set(run['help']) == {'lever', 'pedals'} and not any(run['help'].values())"
+check "a failed lesson exits with 1" exits 1 learn json hill_start --fault rollback --json --runs 2
+check "its error has severity, time, value and unit" json "len(runs) == 2 and any(e['kind'] == 'rollback' and
+  e['severity'] == 'severe' and e['time_s'] > 0 and e['value'] > 0.1 and e['unit'] == 'm' for e in run['errors'])"
+check "a guided lesson has no grade" exits 1 learn json hill_start --guidance 0.5 --json
+check "and says by how much it was guided" json "run['verdict'] == 'not graded' and 'grade' not in run and run['help']['lever'] == 0.5"
+
 check "an empty name" refuse "a learner's name must not be empty" hill_start --learner ""
 check "a name of two lines" refuse "control characters" hill_start --learner $'a\nb'
 check "an invalid number of runs" refuse "--runs" hill_start --runs 0

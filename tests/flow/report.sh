@@ -43,6 +43,14 @@ check "the next lesson is set" report --learner "$ada" --next hill_start
 report
 check "and is listed" says "hill_start (chosen by the instructor)"
 
+json() { python3 -c "import json; d = json.load(open('out')); assert $1, d"; }
+report --json
+check "JSON of all learners" json "[l['runs'] for l in d['learners']] == [12, 0] and d['learners'][0]['next']['by_instructor']"
+report --learner "$ada" --json
+check "JSON of a learner's runs" json "len(d['runs']) == 12 and sum(len(r['shifts']) for r in d['runs']) == 36"
+check "with comments" json "d['runs'][2]['comments'][0]['author'] == 'Bo & Di' and d['learner'] == '$ada'"
+refuse 2 "--json" --json --out page
+
 check "the page and tables" report --learner "$ada" --out "a folder/ä" --csv
 page="a folder/ä/index.html"
 check "what was written is reported" says "$page"

@@ -40,6 +40,10 @@ done
 head -n 1 paper/tour.csv >header
 check "units in the header of tour.csv" grep -q "time_s,.*lever_x_mm" header
 
+check "JSON" tour json --json
+check "has the same figures" python3 -c "import json; d = json.load(open('json.txt'))
+assert d['hash'] == 'fdc801653b99fbf7' and d['complete'] and len(d['engaged']) == 6 and d['forces_lost']['times'] == 0, d"
+
 # With a low speed limit, the guard rejects readings as implausible and repeatedly switches the forces off, so the tour
 # does not show the gate's feel. This must be reported.
 sed 's/^speed_limit_m_per_s = 10 .*/speed_limit_m_per_s = 0.1/' "$2/assets/presets/default.toml" >doubts.toml

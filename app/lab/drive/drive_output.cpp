@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/base/csv.h"
+#include "app/lessons/report/report_json.h"
 
 namespace gearshift::lab {
 namespace {
@@ -80,26 +80,6 @@ std::vector<Happening> happenings(const ScriptedDrive& drive) {
   return all;
 }
 
-void add_value(Json& json, const lessons::RecordField& field, const auto& value) {
-  using Value = std::remove_cvref_t<decltype(value)>;
-  if constexpr (std::is_same_v<Value, std::vector<lessons::ShiftStep>>)
-    json[field.name] = lessons::format_steps(value);
-  else if constexpr (std::is_enum_v<Value>)
-    json[field.name] = to_string(value);
-  else if constexpr (std::is_same_v<Value, int>)
-    field.is_gear ? json[field.name] = haptics::gear_name(value) : json[field.name] = value;
-  else if constexpr (requires { value.has_value(); }) {
-    if (value) add_value(json, field, *value);
-  } else
-    json[field.name] = value;
-}
-
-Json record_json(const auto& record) {
-  Json json = Json::object();
-  each_field(record, [&](const lessons::RecordField& field, const auto& value) { add_value(json, field, value); });
-  return json;
-}
-
 }  // namespace
 
 std::string drive_csv(const ScriptedDrive& drive) {
@@ -133,11 +113,8 @@ std::string drive_json(const ScriptedDrive& drive, const DriveNames& names) {
   for (const haptics::HapticEvent& event : drive.events)
     json["events"].push_back(
         {{"time_s", 1e-9 * static_cast<double>(event.time_ns)}, {"event", haptics::describe(event)}});
-  for (const lessons::ShiftRecord& shift : drive.shifts) json["shifts"].push_back(record_json(shift));
-  for (const lessons::DrivingError& error : drive.errors) {
-    json["errors"].push_back(record_json(error));
-    json["errors"].back()["sentence"] = lessons::error_sentence(error);
-  }
+  for (const lessons::ShiftRecord& shift : drive.shifts) json["shifts"].push_back(lessons::shift_json(shift));
+  for (const lessons::DrivingError& error : drive.errors) json["errors"].push_back(lessons::error_json(error));
   return json.dump(1) + "\n";
 }
 

@@ -21,13 +21,15 @@ constexpr double kShortStep = 3.0;  // [s] times are shown to 0.01 s if the step
 
 using MeasuredMember = std::variant<std::optional<double> DrivingError::*, std::optional<int> DrivingError::*>;
 
-// How a sentence shows the measured value: value * scale, with this many decimals.
+// How a sentence shows the measured value: value * scale in this unit, with this many decimals.
 struct Shown {
   double scale = 1.0;
   int digits = 0;
+  std::string_view unit;
 };
-constexpr Shown kWhole{1.0, 0}, kTenths{1.0, 1}, kHundredths{1.0, 2};
-constexpr Shown kInRpm{1.0 / haptics::kTurnPerMinute, 0}, kInKilo{1e-3, 1};
+constexpr Shown kNumber{1.0, 0, ""}, kInNewtons{1.0, 0, "N"}, kInJoules{1.0, 1, "J"}, kInMetres{1.0, 2, "m"},
+    kInTenths{1.0, 1, "s"}, kInHundredths{1.0, 2, "s"}, kAsJerk{1.0, 0, "m/s^3"},
+    kInRpm{1.0 / haptics::kTurnPerMinute, 0, "rpm"}, kInKilojoules{1e-3, 1, "kJ"}, kInKilowatts{1e-3, 1, "kW"};
 
 struct ErrorDescription {
   ErrorKind kind;
@@ -54,18 +56,18 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::over_rev, "over_rev", &E::engine_speed, kInRpm, ErrorRule{1.0, 0.98, 1.1, Severity::severe},
      "rev above the red line", "You revved the engine to {} rpm, above its red line.",
      "Release the throttle or shift up before the red line."},
-    {ErrorKind::lugging, "lugging", &E::duration, kTenths, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
+    {ErrorKind::lugging, "lugging", &E::duration, kInTenths, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
      "let the engine labour", "The engine laboured for {} s because the gear was too high for the speed.",
      "Shift down before the engine labours."},
     // From measurements, see README.md.
-    {ErrorKind::clutch_dump, "clutch_dump", &E::slip_power, kInKilo, ErrorRule{12e3, 0.0, 50e3, Severity::severe},
+    {ErrorKind::clutch_dump, "clutch_dump", &E::slip_power, kInKilowatts, ErrorRule{12e3, 0.0, 50e3, Severity::severe},
      "dump the clutch", "You let the clutch up abruptly (it had to absorb {} kW).",
      "Let the clutch up slowly through the bite point."},
     // 0.03 s is two frames of pedal data.
-    {ErrorKind::clutch_early, "clutch_early", &E::too_early_by, kHundredths, ErrorRule{0.03, 0.0, 0.3, Severity::minor},
-     "let the clutch up before the gear is in", "The clutch came up {} s before the gear was in.",
-     "Let the clutch up only once the gear is in."},
-    {ErrorKind::clutch_late, "clutch_late", &E::too_early_by, kHundredths, ErrorRule{0.05, 0.0, 0.3, Severity::minor},
+    {ErrorKind::clutch_early, "clutch_early", &E::too_early_by, kInHundredths,
+     ErrorRule{0.03, 0.0, 0.3, Severity::minor}, "let the clutch up before the gear is in",
+     "The clutch came up {} s before the gear was in.", "Let the clutch up only once the gear is in."},
+    {ErrorKind::clutch_late, "clutch_late", &E::too_early_by, kInHundredths, ErrorRule{0.05, 0.0, 0.3, Severity::minor},
      "move the lever before the clutch is down", "The lever moved {} s before the clutch was down.",
      "Press the clutch all the way down before you move the lever."},
     // 70 rpm is the widest window in which the BonusFFB project counts revs as matched. It applies only to gears that
@@ -74,10 +76,10 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
      ErrorRule{70 * haptics::kTurnPerMinute, 0.0, 1000 * haptics::kTurnPerMinute, Severity::severe},
      "shift without the clutch", "You shifted without the clutch; engine and gearbox were {} rpm apart.",
      "Press the clutch for every gear change."},
-    {ErrorKind::riding_clutch, "riding_clutch", &E::duration, kTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
+    {ErrorKind::riding_clutch, "riding_clutch", &E::duration, kInTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
      "rest your foot on the clutch", "You rested your foot on the clutch for {} s.",
      "Take your foot off the clutch once the shift is done."},
-    {ErrorKind::riding_lever, "riding_lever", &E::duration, kTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
+    {ErrorKind::riding_lever, "riding_lever", &E::duration, kInTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
      "lean on the lever", "You leaned on the lever for {} s.", "Take your hand off the lever once the gear is in."},
     {ErrorKind::throttle_in_shift, "throttle_in_shift", &E::rev_rise, kInRpm,
      ErrorRule{400 * haptics::kTurnPerMinute, 0.0, 1500 * haptics::kTurnPerMinute, Severity::minor},
@@ -87,48 +89,48 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
      ErrorRule{300 * haptics::kTurnPerMinute, 0.0, 1200 * haptics::kTurnPerMinute, Severity::minor},
      "let the clutch up at the wrong revs", "Engine and gearbox were {} rpm apart when the clutch took hold.",
      "Bring the engine to the speed that the new gear needs before you let the clutch up."},
-    {ErrorKind::grind, "grind", &E::heat, kTenths, ErrorRule{0.5, 0.0, 30.0, Severity::minor}, "grind a gear",
+    {ErrorKind::grind, "grind", &E::heat, kInJoules, ErrorRule{0.5, 0.0, 30.0, Severity::minor}, "grind a gear",
      "The gears ground ({} J).", "Press the clutch all the way down, and wait a moment before shifting into reverse."},
     // 1 s is a little longer than synchronising from second to first gear with 30 N at the knob, which takes 0.84 s.
-    {ErrorKind::blocked, "blocked", &E::duration, kHundredths, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
+    {ErrorKind::blocked, "blocked", &E::duration, kInHundredths, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
      "force the synchroniser", "You pushed against the synchroniser for {} s.",
      "Choose a gear that fits the speed, and push steadily until it goes in."},
-    {ErrorKind::missed_shift, "missed_shift", &E::gear, kWhole, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
+    {ErrorKind::missed_shift, "missed_shift", &E::gear, kNumber, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
      "miss a gear", "You missed {}.", "Push the lever all the way in before you let go."},
-    {ErrorKind::wrong_gear, "wrong_gear", &E::gear, kWhole, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
+    {ErrorKind::wrong_gear, "wrong_gear", &E::gear, kNumber, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
      "engage the wrong gear", "You engaged {}, which the lesson did not ask for.",
      "Check where the gear is before you move the lever."},
-    {ErrorKind::wrong_column, "wrong_column", &E::wrong_slots, kWhole, ErrorRule{1.0, 0.0, 3.0, Severity::minor},
+    {ErrorKind::wrong_column, "wrong_column", &E::wrong_slots, kNumber, ErrorRule{1.0, 0.0, 3.0, Severity::minor},
      "enter the wrong slot", "The lever entered {} wrong slots.",
      "Pass through neutral, and let the springs guide the lever."},
-    {ErrorKind::over_push, "over_push", &E::force, kWhole,
+    {ErrorKind::over_push, "over_push", &E::force, kInNewtons,
      ErrorRule{kOverPush.warn_above, kOverPush.clear_below, 100.0, Severity::minor}, "push the lever too hard",
      "You pushed the lever too hard ({} N).", "Push lightly, and wait until the gear goes in."},
-    {ErrorKind::step_order, "step_order", &E::steps_out_of_place, kWhole, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
+    {ErrorKind::step_order, "step_order", &E::steps_out_of_place, kNumber, ErrorRule{1.0, 0.0, 4.0, Severity::minor},
      "shift out of order", "You did the steps of the shift in the wrong order ({} out of place).",
      "The order is: off the throttle, clutch down, move the lever, clutch up, throttle."},
-    {ErrorKind::rollback, "rollback", &E::distance, kHundredths, ErrorRule{0.10, 0.0, 0.5, Severity::minor},
-     "roll back", "The car rolled back {} m.", "Hold the car with the brake until the clutch holds it."},
+    {ErrorKind::rollback, "rollback", &E::distance, kInMetres, ErrorRule{0.10, 0.0, 0.5, Severity::minor}, "roll back",
+     "The car rolled back {} m.", "Hold the car with the brake until the clutch holds it."},
     // Relative to jerk_limit() in clutch_release.h.
-    {ErrorKind::jerk, "jerk", &E::jerk, kWhole, ErrorRule{1.0, 0.0, 2.0, Severity::minor}, "jerk the car",
+    {ErrorKind::jerk, "jerk", &E::jerk, kAsJerk, ErrorRule{1.0, 0.0, 2.0, Severity::minor}, "jerk the car",
      "The car jerked ({} m/s³).", "Let the clutch up more slowly through the bite point."},
     // ErrorDetector itself compares with the rev band, here and in the next row.
     {ErrorKind::early_shift, "early_shift", &E::engine_speed, kInRpm, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
      "shift up too early", "You shifted too early, at {} rpm.", "Stay in gear until the revs are higher."},
     {ErrorKind::late_shift, "late_shift", &E::engine_speed, kInRpm, ErrorRule{-kNever, 0.0, kNever, Severity::minor},
      "shift too late", "You shifted too late, at {} rpm.", "Shift earlier."},
-    {ErrorKind::too_slow, "too_slow", &E::duration, kTenths, ErrorRule{2.5, 0.0, 6.0, Severity::minor},
+    {ErrorKind::too_slow, "too_slow", &E::duration, kInTenths, ErrorRule{2.5, 0.0, 6.0, Severity::minor},
      "take too long to shift", "The shift took too long ({} s).",
      "Press the clutch, move the lever and release the clutch in one smooth motion."},
-    {ErrorKind::wrong_direction, "wrong_direction", &E::road_speed, kWhole, ErrorRule{1.0, 0.0, 5.0, Severity::severe},
+    {ErrorKind::wrong_direction, "wrong_direction", &E::road_speed, kNumber, ErrorRule{1.0, 0.0, 5.0, Severity::severe},
      "engage a gear while the car rolls the other way",
      "You engaged a gear while the car was rolling the other way at {}.", "Stop before you change direction."},
     // Relative to the allowed time.
-    {ErrorKind::slow_step, "slow_step", &E::duration, kTenths, ErrorRule{1.0, 0.0, 2.0, Severity::minor},
+    {ErrorKind::slow_step, "slow_step", &E::duration, kInTenths, ErrorRule{1.0, 0.0, 2.0, Severity::minor},
      "take too long for a step", "A step took too long ({} s).",
      "React at once when you are told to, and do not hesitate."},
     // 3 s is three times a normal shift.
-    {ErrorKind::coasting, "coasting", &E::duration, kTenths, ErrorRule{3.0, 0.0, 10.0, Severity::minor}, "coast",
+    {ErrorKind::coasting, "coasting", &E::duration, kInTenths, ErrorRule{3.0, 0.0, 10.0, Severity::minor}, "coast",
      "You coasted for {} s (out of gear or with the clutch down).",
      "Stay in gear with the clutch up until just before you stop."},
     // Relative to max_downshift_speed() in error_detector.h.
@@ -136,7 +138,7 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
      "shift down too early", "You shifted down too early: the lower gear needs {} rpm at that speed.",
      "Slow down first, then shift down."},
     // Relative to burn_limit() in clutch_release.h.
-    {ErrorKind::clutch_burn, "clutch_burn", &E::heat, kInKilo, ErrorRule{1.0, 0.0, 2.0, Severity::minor},
+    {ErrorKind::clutch_burn, "clutch_burn", &E::heat, kInKilojoules, ErrorRule{1.0, 0.0, 2.0, Severity::minor},
      "burn the clutch", "The clutch slipped too long and overheated ({} kJ).",
      "Use less throttle, and hold the clutch at the bite point only until the car rolls."},
 }};
@@ -193,6 +195,15 @@ std::optional<ErrorKind> error_kind_of(std::string_view key) noexcept {
   const auto found =
       std::find_if(kErrors.begin(), kErrors.end(), [&](const ErrorDescription& error) { return error.key == key; });
   return found == kErrors.end() ? std::nullopt : std::optional(found->kind);
+}
+
+std::optional<MeasuredValue> measured_value(const DrivingError& error) noexcept {
+  const ErrorDescription& description = description_of(error.kind);
+  const bool is_missing = std::visit([&](auto figure) { return !(error.*figure).has_value(); }, description.measured);
+  if (is_missing || description.measured == MeasuredMember(&DrivingError::gear)) return std::nullopt;
+  if (description.measured == MeasuredMember(&DrivingError::road_speed))
+    return MeasuredValue{vehicle::in_unit(error.speed_unit, measured(error)), to_string(error.speed_unit)};
+  return MeasuredValue{description.shown.scale * measured(error), description.shown.unit};
 }
 
 std::string_view to_string(OrderMistake mistake) noexcept {

@@ -132,6 +132,13 @@ constexpr void each_field(FieldsOf<DrivingError> auto&& error, auto&& visit) {
 DrivingError make_driving_error(ErrorKind kind, Severity severity, double time, double measured,
                                 std::int64_t shift = -1);
 
+// The value that the table names for the error's kind, in the unit of its sentence. Empty if it is a gear, or missing.
+struct MeasuredValue {
+  double value = 0.0;
+  std::string_view unit;  // "rpm", "kW", ...; empty for a count
+};
+std::optional<MeasuredValue> measured_value(const DrivingError& error) noexcept;
+
 // Thresholds of a kind of error. They have the unit of the measured value, except for relative values: `over_rev` is
 // relative to the car's red line, `slow_step` to the step's allowed time, `jerk` to jerk_limit() and `clutch_burn` to
 // burn_limit() (clutch_release.h), `early_downshift` to max_downshift_speed() (error_detector.h).

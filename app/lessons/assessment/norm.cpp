@@ -161,10 +161,12 @@ std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* nor
   for (const RunFigure& figure : kRunFigures) {
     const std::optional<double> value = figure_of(result, figure);
     if (!value) continue;
-    FigureLine line{figure.label, format_figure(figure, *value), {}};
+    FigureLine line{&figure, *value, {}, {}, figure.label, format_figure(figure, *value), {}};
     if (const auto values = norm != nullptr ? values_of(*norm, figure) : std::nullopt) {
-      line.norm = "up to " + format_figure(figure, upper_value(*values));
-      line.is_worse = *value > upper_value(*values);
+      line.typical = values->typical;
+      line.upper = upper_value(*values);
+      line.norm = "up to " + format_figure(figure, *line.upper);
+      line.is_worse = *value > *line.upper;
     }
     lines.push_back(std::move(line));
   }

@@ -58,12 +58,15 @@ std::optional<double> figure_of(const LessonResult& result, const RunFigure& fig
 double distance(const LessonResult& result, const Norm& norm) noexcept;
 inline constexpr double kMaxDeviation = 5.0;  // [1] one slip must not outweigh all else (engineering value)
 
-// A figure and its norm as text.
+// A figure and its norm, also as text.
 struct FigureLine {
-  std::string_view label;  // "Largest jerk"
-  std::string value;       // "87 m/s³"
-  std::string norm;        // "up to 34": 19 of 20 practised drivers; empty without a norm
-  bool is_worse = false;   // worse than the norm
+  const RunFigure* figure = nullptr;
+  double measured = 0.0;                 // in the unit of the figure's name
+  std::optional<double> typical, upper;  // of practised drivers; 19 of 20 stay below `upper`; empty without a norm
+  std::string_view label;                // "Largest jerk"
+  std::string value;                     // "87 m/s³"
+  std::string norm;                      // "up to 34": 19 of 20 practised drivers; empty without a norm
+  bool is_worse = false;                 // worse than the norm
 };
 std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm);
 
