@@ -10,6 +10,9 @@ void CycleRunner::cycle(const haptics::CycleCall& call, const haptics::CycleStat
   }
   if (next_.load(std::memory_order_relaxed) != nullptr) start_next();
   if (run_ == nullptr) return;
+  const haptics::GuardState guard = record_.cycle.out.guard;
+  const bool has_forces = guard != haptics::GuardState::idle && guard != haptics::GuardState::released;
+  if (watched.must_end(call.deadline_ns, has_forces)) inputs.stop.store(true, std::memory_order_relaxed);
   run_->loop.cycle(call.deadline_ns, call.skipped);
   publish();
 }

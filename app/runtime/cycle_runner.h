@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/runtime/force_watch.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/loop/haptic_loop.h"
@@ -61,6 +62,8 @@ class CycleRunner {
   // Called by the frame side, i.e. not by the haptic thread. From the next cycle on, `next` runs; once a record has its
   // number, the previous run may be destroyed.
   void switch_to(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
+
+  WatchedForces watched;
 
   haptics::LoopInputs inputs;  // of all runs; each has one writer outside this class
 

@@ -265,6 +265,7 @@ void Runtime::State::begin() {
     driver_thread.emplace(runner.stream, kDriverInterval, StreamThread::AtEnd::stop,
                           [this](const CycleRecord& record) { input.act(driver(record.sample())); });
   }
+  runner.watched.follow(config.watch.get(), real_device != nullptr);
   haptics::RealtimeConfig realtime;
   realtime.period_ns = period_ns;
   thread.start(realtime, [this](const haptics::CycleCall& call) { runner.cycle(call, &thread.statistics()); });

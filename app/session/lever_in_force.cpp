@@ -61,6 +61,7 @@ runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const Re
   config.seed = choice.seed;
   config.pedal_timing = choice.pedal_timing;
   config.program = base::program_name();
+  config.watch = choice.watch;
   if (lesson) {
     config.start = lessons::car_start(lesson->start);
     config.pedals.hand_brake = lesson->start.hand_brake;

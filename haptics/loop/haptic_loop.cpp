@@ -135,7 +135,15 @@ void HapticLoop::take_inputs() noexcept {
   (void)inputs_.pedal_keys.update();
   controls_ = inputs_.controls.value();
   command_ = LoopCommand::none;
-  if (inputs_.commands.pop(command_)) apply_command(command_);
+  if (inputs_.stop.load(std::memory_order_relaxed)) {
+    inputs_.stop.store(false, std::memory_order_relaxed);
+    while (inputs_.commands.pop(command_)) {
+    }
+    command_ = LoopCommand::stop;
+    apply_command(command_);
+  } else if (inputs_.commands.pop(command_)) {
+    apply_command(command_);
+  }
 }
 
 void HapticLoop::apply_command(LoopCommand command) noexcept {

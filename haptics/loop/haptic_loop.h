@@ -48,6 +48,8 @@ struct LoopInputs {
   LatestValue<DriverControls> controls;  // pedals: positions of the pedal axes
   LatestValue<PedalKeys> pedal_keys;
   SpscQueue<LoopCommand> commands{16};
+  // Any thread may set it. The next cycle then stops, as by LoopCommand::stop, and drops the commands in the queue.
+  std::atomic<bool> stop{false};
 };
 
 // Time stamps between the eight calls. They are taken only every 64th cycle, because nine clock reads take longer than

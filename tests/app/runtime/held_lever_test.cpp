@@ -1,8 +1,10 @@
 // A real lever in the user's hand: the program does not move it, only the user arms it, and its recordings replay.
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -11,6 +13,7 @@
 #include "haptics/files/file_error.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
+#include "haptics/rt/monotonic_clock.h"
 #include "tests/app/runtime/runtime_rig.h"
 #include "tests/support/short_trace.h"
 #include "tests/support/temp_folder.h"
@@ -206,4 +209,58 @@ TEST_CASE("an invalid setup is rejected before the lever is opened, and a mere c
   CHECK_THROWS_AS((void)check_runtime(study), std::invalid_argument);
   CHECK_THROWS_AS(Runtime{study}, std::invalid_argument);
   CHECK(stick.driven == 0);
+}
+
+// The watch is that of the controls, not of a frame: here no frame comes at all.
+TEST_CASE("a stick's forces end 0.2 s after its user's controls were last read, and at STOP from any thread") {
+  for (const bool stops : {false, true}) {
+    CAPTURE(stops);
+    Stick stick;
+    RuntimeConfig config = held(stick);
+    config.clock = RuntimeClock::real_time;
+    config.watch = std::make_shared<ForceWatch>();
+    config.watch->stop();  // this was for an earlier lever
+    Runtime runtime(config);
+    const auto reads_until_running = [&] {
+      for (int i = 0; i < 5000 && runtime.snapshot().guard != GuardState::running; ++i) {
+        config.watch->note_read(monotonic_ns());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    };
+    runtime.arm();
+    reads_until_running();
+    CHECK(runtime.snapshot().guard == GuardState::running);
+    CHECK_FALSE(config.watch->take_lapse());
+    const std::int64_t last_ns = monotonic_ns();
+    config.watch->note_read(last_ns);
+    if (stops) config.watch->stop();
+    while (runtime.snapshot().guard == GuardState::running && monotonic_ns() - last_ns < 2'000'000'000)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const HapticSnapshot ended = runtime.snapshot();
+    CHECK(ended.guard == GuardState::released);
+    CHECK(ended.fault == GuardFault::stopped);
+    CHECK_FALSE(stick.on);
+    if (!stops) CHECK(ended.time_ns - last_ns >= 200'000'000);
+    CHECK(config.watch->take_lapse() == !stops);
+    CHECK_FALSE(runtime.wants_forces());
+    config.watch->note_read(monotonic_ns());
+    runtime.arm();  // only the user turns them on again
+    reads_until_running();
+    CHECK(runtime.snapshot().guard == GuardState::running);
+  }
+}
+
+TEST_CASE("a simulated lever, which cannot hurt anybody, keeps its forces while no controls are read") {
+  RuntimeConfig config = runtime_config(RuntimeClock::real_time);
+  config.watch = std::make_shared<ForceWatch>();
+  config.watch->note_read(monotonic_ns() - 1'000'000'000);
+  Runtime runtime(config);
+  runtime.arm();
+  for (int i = 0; i < 5000 && runtime.snapshot().guard != GuardState::running; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK(runtime.snapshot().guard == GuardState::running);
+  config.watch->stop();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK(runtime.snapshot().guard == GuardState::released);
 }
