@@ -5,11 +5,14 @@
 
 #include <fmt/core.h>
 
+#include "engine/xr/headset_thread.h"
+
 namespace gearshift::session {
 namespace {
 
 // Shortest and longest pause between two searches for a headset.
 constexpr std::chrono::seconds kMinPause(2), kMaxPause(60);
+constexpr std::chrono::seconds kMaxOpening(10);  // a runtime that has not opened a headset by then is left behind
 // The removal of the headset is reported after this delay, because a user who quits also removes the headset and
 // needs no report.
 constexpr std::chrono::seconds kTakenOffDelay(1);
@@ -36,18 +39,33 @@ LearnerHeadset::LearnerHeadset(const HeadsetSetup& setup, engine::Window& window
 
 bool LearnerHeadset::is_found() {
   const auto now = std::chrono::steady_clock::now();
-  if (view_ || now < next_try_ || is_leaving()) return false;
-  next_try_ = now + pause_;
+  if (view_ || (!opening_ && now < next_try_)) return false;
   try {
-    found_ = std::make_unique<engine::HeadsetRuntime>();
-    return true;
+    if (!opening_) {
+      // A runtime in which an earlier headset is still blocked has no room for another one.
+      if (!engine::HeadsetThread::wait_for_ended(std::chrono::milliseconds(0))) return false;
+      opening_ = std::make_unique<cabin::OpeningHeadset>(setup_.view);
+      began_opening_ = now;
+    }
+    if (opening_->is_open()) return true;
+    if (now - began_opening_ < kMaxOpening) return false;
+    stop_opening(
+        fmt::format("the OpenXR runtime has not answered for {} s; the desktop shows the cabin", kMaxOpening.count()));
   } catch (const engine::HeadsetAbsent& absent) {
+    stop_opening(fmt::format("{}; the desktop shows the cabin until a headset is connected", absent.what()));
     pause_ = kMinPause;
-    report_once(fmt::format("{}; the desktop shows the cabin until a headset is connected", absent.what()));
-  } catch (const engine::HeadsetError& error) {
-    report_once(fmt::format("{}; the desktop shows the cabin", error.what()));
+  } catch (const std::exception& error) {  // raised by the headset's runtime or the GPU
+    stop_opening(fmt::format("{}; the desktop shows the cabin", error.what()));
   }
   return false;
+}
+
+// The pause until the next attempt doubles with each failure.
+void LearnerHeadset::stop_opening(const std::string& why) {
+  opening_.reset();
+  next_try_ = std::chrono::steady_clock::now() + pause_;
+  pause_ = std::min(2 * pause_, kMaxPause);
+  report_once(why);
 }
 
 // Reports the result of a search only if it differs from the previous result, because the search is repeated.
@@ -58,7 +76,7 @@ void LearnerHeadset::report_once(const std::string& message) {
 
 bool LearnerHeadset::open() {
   try {
-    view_ = std::make_unique<cabin::HeadsetView>(setup_.view, std::move(found_), window_, ui_);
+    view_ = std::make_unique<cabin::HeadsetView>(std::move(opening_), window_, ui_);
   } catch (const std::exception& error) {  // raised by the headset's runtime or the GPU
     lose(error.what());
     return false;
@@ -79,23 +97,16 @@ void LearnerHeadset::guarded(const Work& work) {
   }
 }
 
-void LearnerHeadset::set_model(const engine::Model& model) {
-  guarded([&] { view_->set_model(model); });
+bool LearnerHeadset::set_model(const engine::Model& model) {
+  bool is_set = false;
+  guarded([&] { is_set = view_->set_model(model); });
+  return is_set;
 }
 
-bool LearnerHeadset::is_leaving() const {
-  return leaving_.valid() && leaving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-}
-
-// Closes the view after an error. If the headset's runtime still withholds a frame, the view is destroyed on a separate
-// thread, because a STOP by the user must not wait for the runtime.
+// Closes the view after an error.
 void LearnerHeadset::lose(const std::string& why) {
-  if (view_ && view_->is_waiting()) {
-    view_->release_window();
-    leaving_ = std::async(std::launch::async, [view = std::move(view_)]() mutable { view.reset(); });
-  }
   view_.reset();
-  found_.reset();
+  opening_.reset();
   pointer_.reset();
   beam_.reset();
   was_worn_ = false;
@@ -167,7 +178,7 @@ void LearnerHeadset::draw(const engine::FrameScene& scene, const cabin::VisibleR
 
 // Reads both hands; the first one that points at the panel controls it.
 void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
-  const std::array<engine::HeadsetHand, 2> hands = view_->hands();
+  const std::array<engine::HeadsetHand, 2>& hands = view_->hands();
   for (std::size_t i = 0; i < hands.size(); ++i) {
     const engine::HeadsetHand& hand = hands[i];
     const bool selected = std::exchange(selected_[i], hand.selects), had_menu = std::exchange(menu_[i], hand.menu);

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,16 +31,17 @@ class LearnerHeadset {
   // Does not open a headset yet. Window and panel must outlive this object.
   LearnerHeadset(const HeadsetSetup& setup, engine::Window& window, engine::UiContext& ui);
 
-  // Searches for an OpenXR runtime with a headset, at most every 2 s. When this returns true, destroy the window's
-  // view, then call open().
+  // Searches for an OpenXR runtime with a headset, and opens it, without waiting: call it in each frame. A search begins
+  // at most every 2 s. When this returns true, destroy the window's view, then call open().
   bool is_found();
-  // Creates the view with the headset runtime that is_found() has found. Returns false on failure; see take_message().
+  // Creates the view of the headset that is_found() has found. Returns false on failure; see take_message().
   bool open();
   bool is_open() const noexcept { return view_ != nullptr; }
-  bool is_held() const noexcept { return view_ && view_->is_waiting(); }  // the runtime withholds the next frame
-  bool is_worn() const noexcept { return view_ && view_->is_shown(); }    // the user sees the headset's pictures
+  bool is_held() const noexcept { return view_ && view_->is_held(); }   // the runtime withholds the next frame
+  bool is_worn() const noexcept { return view_ && view_->is_shown(); }  // the user sees the headset's pictures
 
-  void set_model(const engine::Model& model);  // model: that of the stage; call only while is_open()
+  // Uploads the stage's model; call only while is_open(). False: not done, because the runtime is using the GPU.
+  bool set_model(const engine::Model& model);
 
   // Call begin() and draw() once per frame, in this order. begin() waits for the headset's next frame and updates the
   // seat. It returns false if nobody is wearing the headset; the caller must then limit the frame rate. If the headset
@@ -74,7 +74,7 @@ class LearnerHeadset {
 
  private:
   void report_once(const std::string& message);
-  bool is_leaving() const;
+  void stop_opening(const std::string& why);
   void lose(const std::string& why);
   template <class Work>
   void guarded(const Work& work);
@@ -86,9 +86,9 @@ class LearnerHeadset {
   HeadsetSetup setup_;
   engine::Window& window_;
   engine::UiContext& ui_;
-  std::unique_ptr<engine::HeadsetRuntime> found_;
+  std::unique_ptr<cabin::OpeningHeadset> opening_;  // null: none is being opened
+  std::chrono::steady_clock::time_point began_opening_{};
   std::unique_ptr<cabin::HeadsetView> view_;
-  std::future<void> leaving_;  // destroys a lost view whose frame the runtime still withholds
   std::chrono::steady_clock::time_point next_try_{};
   std::chrono::seconds pause_{2};
   std::string reported_;  // the last reported reason why no headset is open

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include <fmt/core.h>
 
@@ -14,26 +19,34 @@
 #include "app/session/cabin_camera.h"
 #include "app/session/controls_assistant.h"
 #include "app/session/event_lines.h"
+#include "app/session/frame_thread.h"
 #include "app/session/lesson_lines.h"
 #include "app/session/panel_hand_pointer.h"
 #include "app/session/shared_input.h"
 #include "app/session/ui_scale.h"
 #include "engine/gpu/instance.h"
 #include "engine/ui/ui.h"
+#include "engine/xr/headset_thread.h"
 #include "haptics/files/printable.h"
+#include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift::session {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kOffscreenRate = 30.0;            // [1/s] frames per simulated second
-constexpr int kSettling = 3;                       // frames until every part of the panel has its final height
-constexpr double kMinFrameTime = 1.0 / 144;        // [s] shortest frame if the display does not limit the rate
-constexpr double kMaxFrameTime = 0.25;             // [s] car and pedals advance by at most this per frame
-constexpr std::chrono::seconds kLabelInterval{1};  // between updates of the keys' labels
-constexpr std::chrono::seconds kViewRetry{1};      // pause between attempts to recreate the view
-constexpr std::chrono::seconds kViewHolds{10};     // no message is printed if the view is lost again within this time
+constexpr double kOffscreenRate = 30.0;                  // [1/s] frames per simulated second
+constexpr int kSettling = 3;                             // frames until every part of the panel has its final height
+constexpr double kMinFrameTime = 1.0 / 144;              // [s] shortest frame if the display does not limit the rate
+constexpr double kMaxFrameTime = 0.25;                   // [s] car and pedals advance by at most this per frame
+constexpr std::chrono::seconds kLabelInterval{1};        // between updates of the keys' labels
+constexpr std::chrono::seconds kViewRetry{1};            // pause between attempts to recreate the view
+constexpr std::chrono::milliseconds kHeadsetEnds{100};   // longest wait for a headset's thread at the program's end
+constexpr std::chrono::milliseconds kMaxSignalled{700};  // longest wait for a frame after a signal to end
+constexpr std::chrono::milliseconds kStopTakes{20};      // until the motors have their last command
+constexpr std::string_view kLapse =
+    "your controls could not be read for 0.2 s, so the motors are off; press Enter to turn the forces on again";
+constexpr std::chrono::seconds kViewHolds{10};  // no message is printed if the view is lost again within this time
 
 // The part of the cabin's picture that panel and lesson card leave free. `size` [px]: size of the picture.
 cabin::VisibleRegion free_region(const ui::Panel& panel, glm::dvec2 size) {
@@ -63,7 +76,7 @@ class WindowTrainer {
       : setup_(setup),
         window_(setup.view.width, setup.view.height, "gearshift"),
         headset_(setup.headset ? std::make_unique<LearnerHeadset>(*setup.headset, window_, ui_) : nullptr),
-        view_(first_view()),  // made before session_, which starts the haptic loop
+        view_(desktop_view()),  // made before session_, which starts the haptic loop
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
@@ -96,18 +109,21 @@ class WindowTrainer {
   }
 
   void frame() {
-    pace();
+    beside_input([this] { pace(); });
     poll();
     act();
     set_driver();
-    session_.advance(seconds_);
+    beside_input([this] { session_.advance(seconds_); });
     print_events(session_.events(), !session_.runtime().device().measures_hand_force);
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
     print_session_message();
-    draw_panel();
-    look();
-    update_cabin();
-    show();
+    const ui::PanelCommands commands = draw_panel();
+    beside_input([&] {
+      session_.apply(commands);
+      look();
+      update_cabin();
+      show();
+    });
   }
 
  private:
@@ -122,16 +138,36 @@ class WindowTrainer {
                    : cabin::mouse_in_eye(setup_.view, mouse, window);
   }
 
+  // Does work that may take long, while STOP and the watch on the controls go on. See FrameThread::run().
+  void beside_input(const std::function<void()>& work) {
+    frame_thread_.run(work, [this] { glance(); });
+  }
+
+  void glance() {
+    for (const engine::InputEvent& event : window_.glance()) {
+      const auto* const key = std::get_if<engine::KeyEvent>(&event);
+      if (key != nullptr && input_.stops(*key, panel_has_keys_)) setup_.choice.watch->stop();
+    }
+    setup_.choice.watch->note_read(haptics::monotonic_ns());
+    if (!base::StopSignals::requested()) return;
+    if (!signalled_at_) signalled_at_ = Clock::now();
+    if (Clock::now() - *signalled_at_ > kMaxSignalled) end_at_once();
+  }
+
+  // The display or a disk hangs, and the user wants the program to end.
+  [[noreturn]] void end_at_once() {
+    setup_.choice.watch->stop();
+    std::this_thread::sleep_for(kStopTakes);
+    base::print_message("ended without saving, because the display or a disk did not answer");
+    std::fflush(stdout);
+    std::_Exit(1);
+  }
+
   bool wears() const { return headset_ && headset_->is_open(); }
   bool is_worn() const { return headset_ && headset_->is_worn(); }  // the user sees the headset's pictures
 
   std::unique_ptr<cabin::CabinView> desktop_view() {
     return std::make_unique<cabin::CabinView>(setup_.view, &window_, &ui_);
-  }
-
-  std::unique_ptr<cabin::CabinView> first_view() {
-    if (headset_ && headset_->is_found() && headset_->open()) return nullptr;
-    return desktop_view();
   }
 
   // Switches to a headset if one is found; otherwise makes sure that the window has a desktop view. A headset uses the
@@ -200,6 +236,8 @@ class WindowTrainer {
     input_.feel(felt.lever, felt.gear);
     session_.set_mouse_leads(input_.mouse_moves_lever());
     const engine::WindowInput& polled = window_.poll();
+    setup_.choice.watch->note_read(haptics::monotonic_ns());
+    if (setup_.choice.watch->take_lapse()) report_message(std::string(kLapse));
     if (wears() && headset_->take_opened()) panel_.set_visible(true);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
@@ -282,6 +320,10 @@ class WindowTrainer {
     window_.capture_mouse(input_.mouse_moves_lever());
   }
 
+  void apply(const ui::PanelCommands& commands) {
+    beside_input([&] { session_.apply(commands); });
+  }
+
   void act(ui::Action action) {
     switch (action) {
       case ui::Action::stop:
@@ -291,10 +333,10 @@ class WindowTrainer {
         if (std::string message; controls_.press_enter(message))
           report(message);
         else
-          session_.apply(enter_commands());
+          apply(enter_commands());
         break;
       case ui::Action::record:
-        session_.apply(ui::ToggleRecording{});
+        apply({ui::ToggleRecording{}});
         break;
       case ui::Action::recentre:
         look_.recentre();
@@ -351,7 +393,7 @@ class WindowTrainer {
     return commands;
   }
 
-  void draw_panel() {
+  ui::PanelCommands draw_panel() {
     const glm::ivec2 size = panel_size();
     const float scale = wears() ? UiScale::in_headset(size.x, panel_.visible())
                                 : ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
@@ -372,13 +414,14 @@ class WindowTrainer {
       if (const auto* controls = std::get_if<ui::ControlsCommand>(&command))
         report(controls_.apply(*controls, session_.runtime().gate()));
     }
-    session_.apply(commands);
+    panel_has_keys_ = panel_.has_keyboard();
+    return commands;
   }
 
   void show() {
     if (wears()) {
-      if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
-      fresh_view_ = false;
+      fresh_view_ = session_.take_new_model() || fresh_view_;
+      if (fresh_view_) fresh_view_ = !headset_->set_model(session_.stage().model());
       if (!wears()) return;  // set_model() may have lost the headset
       headset_->draw(session_.stage().scene(), free_region(panel_, panel_size()), card_region(panel_, panel_size()),
                      look_.pose());
@@ -412,7 +455,9 @@ class WindowTrainer {
   CabinCamera look_;
   LessonLines lines_;
   Clock::time_point last_frame_;
-  double seconds_ = 1.0 / 60.0;  // [s] duration of this frame
+  double seconds_ = 1.0 / 60.0;                    // [s] duration of this frame
+  bool panel_has_keys_ = false;                    // a key press goes to the panel
+  std::optional<Clock::time_point> signalled_at_;  // when a signal to end was first noticed during a frame
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
@@ -421,6 +466,7 @@ class WindowTrainer {
   std::string printed_message_;
   std::vector<engine::Controller> controllers_;  // plugged in, without the stick that is the lever
   std::vector<std::string> reported_;            // sentences about them that were printed
+  FrameThread frame_thread_;                     // last, so that it ends first
 };
 
 // True if the lesson or the replay has ended.
@@ -428,10 +474,9 @@ bool is_done(const Session& session) {
   return session.coach().view().phase == lessons::LessonPhase::over || session.is_replay_over();
 }
 
-}  // namespace
-
-int train_in_window(const TrainSetup& setup) {
+int run_trainer(TrainSetup setup) {
   const base::StopSignals signals;
+  setup.choice.watch = std::make_shared<runtime::ForceWatch>();
   WindowTrainer trainer(setup);
   try {
     while (!trainer.done()) trainer.frame();
@@ -440,6 +485,16 @@ int train_in_window(const TrainSetup& setup) {
     throw;
   }
   return trainer.finish();
+}
+
+}  // namespace
+
+int train_in_window(const TrainSetup& setup) {
+  const int code = run_trainer(setup);
+  // A headset's runtime that hangs still has its thread, so the program ends without the destructors that would wait for
+  // it or take away what it uses.
+  if (engine::HeadsetThread::wait_for_ended(kHeadsetEnds)) return code;
+  std::_Exit(std::fflush(stdout) == 0 ? code : 1);
 }
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {

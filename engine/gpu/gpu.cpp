@@ -64,6 +64,7 @@ struct Gpu::State {
   std::filesystem::path cache_file;
   PipelineCache cache;
   Semaphore timeline;
+  std::mutex queue_mutex;
   std::uint64_t submitted = 0;  // timeline value that the last submission signals
 };
 
@@ -157,6 +158,10 @@ bool Gpu::is_done(std::uint64_t value) const {
 
 void Gpu::wait_idle() noexcept {
   vkDeviceWaitIdle(device());
+}
+
+std::mutex& Gpu::queue_mutex() noexcept {
+  return state_->queue_mutex;
 }
 
 bool Gpu::supports(VkFormat format, VkFormatFeatureFlags2 features) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +92,8 @@ class Gpu {
   void wait(std::uint64_t value);           // waits until the timeline semaphore reaches the value. Throws GpuLost
   bool is_done(std::uint64_t value) const;  // does not block
   void wait_idle() noexcept;                // also returns if the device is lost
+  // Held by those who use the queue or wait_idle(), where an OpenXR runtime uses the queue on another thread.
+  std::mutex& queue_mutex() noexcept;
 
   bool supports(VkFormat format, VkFormatFeatureFlags2 features) const;  // for optimal tiling
 

@@ -3,10 +3,12 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,10 +76,13 @@ struct Window::State {
   void on_mouse_moved(double x, double y);
   void on_mouse_button(int button, bool down);
   bool is_visible() const;
+  void measure();
 
   GlfwUse use;
   GLFWwindow* window = nullptr;
   WindowInput input;
+  WindowInput next;  // collected for the next poll()
+  std::atomic<glm::ivec2> framebuffer{glm::ivec2(0)};
   Controllers controllers;
   std::array<bool, 5> held{};  // current mouse buttons
   glm::dvec2 cursor{0.0};      // position in GLFW's window coordinates; unbounded while captured
@@ -92,6 +97,7 @@ Window::State::State(int width, int height, const std::string& title) {
   if (window == nullptr) throw std::runtime_error(fmt::format("Cannot open a window: {}.", glfw_error()));
   glfwSetWindowUserPointer(window, this);
   glfwGetCursorPos(window, &cursor.x, &cursor.y);
+  measure();
   set_callbacks();
 }
 
@@ -102,19 +108,19 @@ void Window::State::set_callbacks() {
     state_of(w)->on_mouse_button(button, action == GLFW_PRESS);
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-    WindowInput& scrolled = state_of(w)->input;
+    WindowInput& scrolled = state_of(w)->next;
     scrolled.events.emplace_back(ScrollEvent{.lines = {x, y}, .at = scrolled.mouse});
   });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     if (action == GLFW_REPEAT) return;
-    state_of(w)->input.events.emplace_back(KeyEvent{.key = key,
-                                                    .down = action == GLFW_PRESS,
-                                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                                    .control = (mods & GLFW_MOD_CONTROL) != 0,
-                                                    .alt = (mods & GLFW_MOD_ALT) != 0});
+    state_of(w)->next.events.emplace_back(KeyEvent{.key = key,
+                                                   .down = action == GLFW_PRESS,
+                                                   .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                                   .control = (mods & GLFW_MOD_CONTROL) != 0,
+                                                   .alt = (mods & GLFW_MOD_ALT) != 0});
   });
   glfwSetCharCallback(
-      window, [](GLFWwindow* w, unsigned int c) { state_of(w)->input.events.emplace_back(static_cast<char32_t>(c)); });
+      window, [](GLFWwindow* w, unsigned int c) { state_of(w)->next.events.emplace_back(static_cast<char32_t>(c)); });
 }
 
 void Window::State::on_mouse_moved(double x, double y) {
@@ -124,17 +130,17 @@ void Window::State::on_mouse_moved(double x, double y) {
   if (width <= 0 || height <= 0) return;
   const glm::dvec2 pixels{static_cast<double>(pixels_wide) / width, static_cast<double>(pixels_high) / height};
   const glm::dvec2 current{x, y};
-  input.mouse_moved += (current - cursor) * pixels;
+  next.mouse_moved += (current - cursor) * pixels;
   cursor = current;
-  if (!captured) input.mouse = current * pixels;
+  if (!captured) next.mouse = current * pixels;
 }
 
 void Window::State::on_mouse_button(int button, bool down) {
   if (button < 0 || button >= static_cast<int>(held.size())) return;
   const auto index = static_cast<std::size_t>(button);
   held[index] = down;
-  if (down) input.mouse_down[index] = true;
-  input.events.emplace_back(ButtonEvent{.button = button, .down = down, .at = input.mouse});
+  if (down) next.mouse_down[index] = true;
+  next.events.emplace_back(ButtonEvent{.button = button, .down = down, .at = next.mouse});
 }
 
 // A window manager can iconify the window, or unmap it when the user changes the desktop. In both cases nothing needs
@@ -159,15 +165,30 @@ std::vector<const char*> Window::instance_extensions() {
 const WindowInput& Window::poll() {
   State& s = *state_;
   if (!s.shown) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  s.input.mouse_moved = glm::dvec2(0.0);
-  s.input.events.clear();
-  s.input.mouse_down = s.held;
-  glfwPollEvents();
-  for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];
+  (void)glance();
+  std::swap(s.input, s.next);
+  s.next.mouse = s.input.mouse;
+  s.next.mouse_moved = glm::dvec2(0.0);
+  s.next.events.clear();
+  s.next.mouse_down = s.held;
   s.input.controllers = s.controllers.poll();
-  s.input.focused = glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;
   s.shown = s.is_visible();
+  s.measure();
   return s.input;
+}
+
+std::span<const InputEvent> Window::glance() {
+  State& s = *state_;
+  const std::size_t before = s.next.events.size();
+  glfwPollEvents();
+  s.next.focused = glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;  // GLFW asks the window system
+  return std::span(s.next.events).subspan(before);
+}
+
+void Window::State::measure() {
+  glm::ivec2 size{0};
+  if (shown) glfwGetFramebufferSize(window, &size.x, &size.y);
+  framebuffer = size;
 }
 
 const WindowInput& Window::input() const {
@@ -179,9 +200,7 @@ bool Window::wants_close() const {
 }
 
 glm::ivec2 Window::framebuffer() const {
-  glm::ivec2 size{0};
-  if (state_->shown) glfwGetFramebufferSize(state_->window, &size.x, &size.y);
-  return size;
+  return state_->framebuffer;
 }
 
 float Window::content_scale() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -65,10 +66,13 @@ class Window {
 
   static std::vector<const char*> instance_extensions();  // for GpuConfig; valid once a window exists
 
-  const WindowInput& poll();         // does not wait, except while minimised: then at most 20 polls per second
+  const WindowInput& poll();  // does not wait, except while minimised: then at most 20 polls per second
+  // Collects the input for the next poll() while another thread draws in the window, and returns what is new of it. Asks
+  // the window system, and so does not return while that hangs.
+  std::span<const InputEvent> glance();
   const WindowInput& input() const;  // as returned by the last poll
   bool wants_close() const;
-  glm::ivec2 framebuffer() const;  // [px] (0, 0) while minimised
+  glm::ivec2 framebuffer() const;  // [px] as of the last poll(); (0, 0) while minimised. Any thread may call it
   float content_scale() const;     // 1 at 96 dpi
   void set_full_screen(bool on);   // on the window's current monitor
   bool full_screen() const;

@@ -98,14 +98,18 @@ void HeadsetHands::suggest_bindings() {
   }
 }
 
-std::array<HeadsetHand, 2> HeadsetHands::read(XrSpace space, XrTime time) {
+void HeadsetHands::sync() {
   const XrActiveActionSet active{set_, XR_NULL_PATH};
   XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
   sync.countActiveActionSets = 1;
   sync.activeActionSets = &active;
   const XrResult result = xrSyncActions(session_, &sync);
   check(result, "xrSyncActions");
-  if (result == XR_SESSION_NOT_FOCUSED) return {};
+  is_focused_ = result != XR_SESSION_NOT_FOCUSED;
+}
+
+std::array<HeadsetHand, 2> HeadsetHands::read(XrSpace space, XrTime time) const {
+  if (!is_focused_) return {};
   return {read(0, space, time), read(1, space, time)};
 }
 

@@ -15,7 +15,8 @@ class HeadsetHands {
   HeadsetHands(const HeadsetHands&) = delete;
   HeadsetHands& operator=(const HeadsetHands&) = delete;
 
-  std::array<HeadsetHand, 2> read(XrSpace space, XrTime time);
+  void sync();                                                        // reads the controllers' state from the runtime
+  std::array<HeadsetHand, 2> read(XrSpace space, XrTime time) const;  // as of the last sync()
 
  private:
   XrAction make_action(const char* name, const char* label, XrActionType type);
@@ -30,6 +31,7 @@ class HeadsetHands {
   std::array<XrPath, 2> hand_{};  // left, right
   XrAction aim_ = XR_NULL_HANDLE, select_ = XR_NULL_HANDLE, menu_ = XR_NULL_HANDLE, scroll_ = XR_NULL_HANDLE;
   std::array<XrSpace, 2> aim_space_{};
+  bool is_focused_ = false;  // at the last sync()
 };
 
 }  // namespace gearshift::engine

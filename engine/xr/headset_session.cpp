@@ -1,9 +1,9 @@
 #include "engine/xr/headset_session.h"
 
 #include <algorithm>
-#include <future>
+#include <atomic>
 #include <limits>
-#include <system_error>
+#include <mutex>
 #include <vector>
 
 #include "engine/xr/headset_hands.h"
@@ -76,7 +76,6 @@ struct HeadsetSession::State {
   void queue_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void update_eyes(const XrView* views, XrViewStateFlags flags);
   void move_last_eyes(const EyePose& new_from_old);
-  void start_wait_thread();
   std::int64_t runtime_time(const timespec& monotonic) const;
 
   struct Pending {
@@ -99,12 +98,7 @@ struct HeadsetSession::State {
   glm::dvec3 eye_midpoint{0.0};            // [m] midpoint between the eyes
   std::array<glm::dvec3, 2> eye_offset{};  // [m] offset of each eye from the midpoint, in head space
   std::vector<Pending> pending;
-  struct WaitResult {
-    XrResult result;
-    XrFrameState frame_state;
-    timespec ended;
-  };
-  std::future<WaitResult> wait_result;  // result of the thread that calls xrWaitFrame, see wait()
+  std::atomic<bool> is_waiting{false};
 };
 
 HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config)
@@ -135,7 +129,7 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
 }
 
 HeadsetSession::State::~State() {
-  if (wait_result.valid()) wait_result.wait();
+  const std::lock_guard lock(gpu.queue_mutex());
   gpu.wait_idle();  // because frames in flight may still write to the runtime's images
   hands.reset();
   colour.reset();
@@ -263,7 +257,6 @@ HeadsetSession::~HeadsetSession() = default;
 
 void HeadsetSession::poll() {
   State& s = *state_;
-  if (s.wait_result.valid()) return;
   while (true) {
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
     const XrResult result = xrPollEvent(s.xr.instance, &event);
@@ -278,7 +271,7 @@ HeadsetState HeadsetSession::state() const noexcept {
 }
 
 bool HeadsetSession::is_waiting() const noexcept {
-  return state_->wait_result.valid();
+  return state_->is_waiting;
 }
 
 bool HeadsetSession::is_running() const noexcept {
@@ -306,28 +299,22 @@ std::int64_t HeadsetSession::State::runtime_time(const timespec& monotonic) cons
   return time;
 }
 
-void HeadsetSession::State::start_wait_thread() {
-  try {
-    wait_result = std::async(std::launch::async, [session = session] {
-      WaitResult frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}, {}};
-      frame.result = xrWaitFrame(session, nullptr, &frame.frame_state);
-      clock_gettime(CLOCK_MONOTONIC, &frame.ended);
-      return frame;
-    });
-  } catch (const std::system_error&) {
-    throw HeadsetError("cannot start a thread for the headset's frames");
-  }
-}
-
-std::optional<HeadsetFrame> HeadsetSession::wait(std::chrono::milliseconds timeout) {
+HeadsetFrame HeadsetSession::wait() {
   State& s = *state_;
-  if (!s.wait_result.valid()) s.start_wait_thread();
-  if (s.wait_result.wait_for(timeout) == std::future_status::timeout) return std::nullopt;
-  const auto [result, frame_state, ended] = s.wait_result.get();
+  XrFrameState frame_state{XR_TYPE_FRAME_STATE};
+  s.is_waiting = true;
+  const XrResult result = xrWaitFrame(s.session, nullptr, &frame_state);
+  s.is_waiting = false;
+  timespec ended{};
+  clock_gettime(CLOCK_MONOTONIC, &ended);
   check(result, "xrWaitFrame");
   HeadsetFrame frame;
   frame.wait_end_ns = s.runtime_time(ended);
-  check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
+  s.hands->sync();
+  {
+    const std::lock_guard lock(s.gpu.queue_mutex());
+    check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
+  }
   frame.display_ns = frame_state.predictedDisplayTime;
   frame.period = 1e-9 * static_cast<double>(frame_state.predictedDisplayPeriod);
   frame.should_render = frame_state.shouldRender == XR_TRUE;
@@ -364,6 +351,7 @@ std::optional<SpaceChange> HeadsetSession::take_due_space_change(const HeadsetFr
 
 HeadsetSession::Images HeadsetSession::acquire_images(bool with_panel) {
   State& s = *state_;
+  const std::lock_guard lock(s.gpu.queue_mutex());
   Images images;
   images.colour = s.colour->acquire(kEyeImageTimeout);
   if (!images.colour) return {};  // the caller then draws nothing
@@ -439,6 +427,7 @@ struct Layers {
 void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane,
                          const HeadsetPanel* panel) {
   State& s = *state_;
+  const std::lock_guard lock(s.gpu.queue_mutex());
   for (const auto* images : {&s.colour, &s.depth, &s.panel})
     if (*images) (*images)->release();
   Layers layers;

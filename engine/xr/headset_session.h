@@ -1,10 +1,11 @@
-// An OpenXR session: life cycle, frames, images. Must be used from one thread.
+// An OpenXR session: life cycle, frames, images. Each call may block for as long as the runtime likes: use it, its
+// construction and destruction included, on a HeadsetThread only. Calls in which the runtime may use the Vulkan queue
+// hold Gpu::queue_mutex() meanwhile.
 //
 // Order of calls in a frame: poll(), wait(), locate(); draw; locate() again just before the submission; end().
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -82,19 +83,18 @@ class HeadsetSession {
   HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
   ~HeadsetSession();  // waits until the device is idle
 
-  // Handles the runtime's events since the last poll(), and begins or ends the session as the runtime requests. Does
-  // nothing while a wait for a frame is pending. Throws HeadsetLost.
+  // Handles the runtime's events since the last poll(), and begins or ends the session as the runtime requests. Throws
+  // HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
-  bool is_waiting() const noexcept;          // a wait for a frame is pending; the destructor waits for it to end
+  // wait() is waiting for the runtime, which may hold back a frame as long as it likes. May be called on any thread.
+  bool is_waiting() const noexcept;
   bool is_running() const noexcept;          // the runtime requests frames, so wait() paces them
   const HeadsetEyes& eyes() const noexcept;  // as last located; at first, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room-fixed space that persists from day to day
 
-  // Waits until the runtime requests the next frame, and begins that frame. Returns empty on timeout: the wait
-  // continues in the background, and the next call resumes it. A runtime may hold back a frame indefinitely. Throws
-  // HeadsetLost.
-  std::optional<HeadsetFrame> wait(std::chrono::milliseconds timeout);
+  // Waits until the runtime requests the next frame, reads the controllers, and begins that frame. Throws HeadsetLost.
+  HeadsetFrame wait();
   HeadsetEyes locate(const HeadsetFrame& frame);
   std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);  // left, right; default values while not focused
   std::optional<SpaceChange> take_due_space_change(const HeadsetFrame& frame);  // empty until a change is due

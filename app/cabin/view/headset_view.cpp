@@ -3,19 +3,32 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
 #include <utility>
+#include <vector>
+
+#include <fmt/core.h>
 
 #include "app/cabin/view/cabin_view.h"
 #include "app/cabin/view/desktop_mirror.h"
 #include "app/cabin/view/ui_canvas.h"
 #include "engine/render/renderer.h"
+#include "engine/xr/headset_thread.h"
 
 namespace gearshift::cabin {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // [1] see RenderConfig::late_margin
 constexpr float kLateMargin = 0.1f;
-constexpr std::chrono::milliseconds kFrameTimeout(50);
+constexpr std::chrono::milliseconds kCallTimeout(50);    // longest wait for the runtime
+constexpr std::chrono::milliseconds kHeldTimeout(5);     // the same while it has already been waited for in vain
+constexpr std::chrono::milliseconds kCloseTimeout(600);  // longest wait for the end of the session
+constexpr std::chrono::seconds kLostAfter(5);            // see HeadsetView::begin()
 
 engine::GpuConfig shared_with(engine::HeadsetRuntime& runtime) {
   engine::GpuConfig config = gpu_config(true);
@@ -57,39 +70,130 @@ std::array<engine::View, 2> views_in(const engine::EyePose& cabin_from_room, con
 
 }  // namespace
 
+// What the runtime and the GPU have of a headset. Only its HeadsetThread makes and destroys it.
+struct HeadsetParts {
+  explicit HeadsetParts(const HeadsetViewConfig& config)
+      : gpu(shared_with(runtime)),
+        renderer(gpu, two_eyes(config, runtime.traits(), gpu.traits())),
+        session(runtime, gpu, {{renderer.config().width, renderer.config().height}, config.panel}) {}
+
+  engine::HeadsetRuntime runtime;
+  engine::Gpu gpu;
+  engine::Renderer renderer;
+  engine::HeadsetSession session;
+};
+
+// What the headset's thread hands over. It writes while a call is in progress, and the view reads afterwards.
+struct Handover {
+  std::unique_ptr<HeadsetParts> parts;
+  engine::HeadsetState state = engine::HeadsetState::idle;
+  bool is_running = false, is_stage = false;
+  std::optional<engine::HeadsetFrame> frame;
+  engine::HeadsetEyes eyes, late_eyes;
+  std::array<engine::HeadsetHand, 2> hands{};
+  std::vector<engine::SpaceChange> changes;
+  engine::HeadsetSession::Images images;
+  std::int64_t ended_ns = 0;
+};
+
+// Destroys the parts when the thread ends, on that thread.
+struct OpeningHeadset::State {
+  explicit State(const HeadsetViewConfig& wanted) : config(wanted) {
+    opening = thread.start([config = wanted, handover = handover] {
+      handover->parts = std::make_unique<HeadsetParts>(config);
+      handover->eyes = handover->parts->session.eyes();
+      handover->is_stage = handover->parts->session.is_stage();
+    });
+  }
+  ~State() {
+    std::future<void> closed = thread.start([handover = handover] { handover->parts.reset(); });
+    if (!opening.valid() && !hangs) closed.wait_for(kCloseTimeout);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  HeadsetViewConfig config;
+  std::shared_ptr<Handover> handover = std::make_shared<Handover>();
+  engine::HeadsetThread thread;
+  std::future<void> opening;  // valid until it is open, or has failed
+  bool hangs = false;         // a call is in progress for longer than it should
+};
+
+OpeningHeadset::OpeningHeadset(const HeadsetViewConfig& config) : state_(std::make_unique<State>(config)) {}
+OpeningHeadset::~OpeningHeadset() = default;
+
+bool OpeningHeadset::is_open() {
+  if (!state_->opening.valid()) return true;
+  if (state_->opening.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+  state_->opening.get();
+  return true;
+}
+
 struct HeadsetView::State {
-  State(const HeadsetViewConfig& wanted, std::unique_ptr<engine::HeadsetRuntime> found, engine::Window& shown_in,
-        engine::UiContext& ui)
-      : config(wanted),
-        runtime(std::move(found)),
-        gpu(shared_with(*runtime)),
-        renderer(gpu, two_eyes(config, runtime->traits(), gpu.traits())),
-        session(*runtime, gpu, {{renderer.config().width, renderer.config().height}, config.panel}),
-        panel(gpu, ui),
-        eyes(session.eyes()),
-        at_origin(session.eyes()) {
+  State(std::unique_ptr<OpeningHeadset> opened, engine::Window& shown_in, engine::UiContext& ui)
+      : headset(std::move(opened)),
+        config(headset->state_->config),
+        at(*headset->state_->handover),
+        parts(*at.parts),
+        panel(parts.gpu, ui),
+        eyes(at.eyes),
+        at_origin(at.eyes) {
     panel.fit({static_cast<std::uint32_t>(config.panel.x), static_cast<std::uint32_t>(config.panel.y)});
     make_mirror(shown_in, ui);
   }
+  ~State() {
+    // A runtime that is stuck in a call that may use the queue does not let go of it; then nothing is submitted to it
+    // any more either.
+    std::unique_lock lock(parts.gpu.queue_mutex(), std::defer_lock);
+    const Clock::time_point end = Clock::now() + kCallTimeout;
+    while (!lock.try_lock() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    parts.gpu.wait_idle();
+    headset->state_->hangs = is_held;
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   void make_mirror(engine::Window& window, engine::UiContext& ui);
   void show_mirror(const VisibleRegion& region);
   void draw_cabin(const engine::FrameScene& scene, const engine::EyePose& seat, const engine::HeadsetEyes& from,
                   engine::Renderer::Finish* finish);
 
+  // What the headset's thread does in a frame, in this order.
+  enum class Step { none, begin, acquire, locate, end };
+  template <class Work>
+  void start(Step next, Work work);
+  bool is_done(Step wanted);  // waits; false: the runtime has not returned in time, or another step is in progress
+  void throw_if_lost() const;
+  bool take_begun();
+  void acquire(bool with_panel);
+  engine::HeadsetEyes locate();
+  void end(const engine::HeadsetEyes* drawn_from, const engine::HeadsetPanel* hung);
+  bool finish_end();
+  void draw_frame(const engine::FrameScene& scene, const engine::EyePose& seat, const engine::HeadsetPanel* hung);
+  void draw_mirror(const engine::FrameScene& scene, const engine::EyePose& seat, const VisibleRegion& region);
+
+  std::unique_ptr<OpeningHeadset> headset;
   HeadsetViewConfig config;
-  std::unique_ptr<engine::HeadsetRuntime> runtime;
-  engine::Gpu gpu;
-  engine::Renderer renderer;
-  engine::HeadsetSession session;
+  Handover& at;
+  HeadsetParts& parts;
   UiCanvas panel;
   std::optional<DesktopMirror> mirror;  // empty if the window has failed, which does not affect the headset
   engine::FrameTimes times;
+  Step step = Step::none;  // in progress, or just done
+  std::future<void> call;  // valid while `step` is in progress
+  Clock::time_point called_at;
+  bool is_held = false;      // see HeadsetView::is_held()
+  bool is_acquired = false;  // images were acquired for `frame`
+  engine::HeadsetState state = engine::HeadsetState::idle;
+  bool is_running = false;
   std::optional<engine::HeadsetFrame> frame;  // the current frame, from begin() until draw()
+  engine::HeadsetFrame ended;                 // the newest frame that was submitted
   bool is_shown = false;                      // true if the headset displays the newest frame
+  double gpu_ms = 0.0;
   std::string message;
   engine::HeadsetEyes eyes, shown_eyes, at_origin;
-  bool drawn = false;  // true once there is an image to mirror
+  bool drawn = false;        // true once there is an image to mirror
+  bool drawn_frame = false;  // the image is that of the newest draw()
 };
 
 namespace {
@@ -97,11 +201,12 @@ namespace {
 // Ends a frame: copies the rendered images into the headset's images, and updates the eye poses as late as possible.
 class HeadsetFinish final : public engine::Renderer::Finish {
  public:
-  HeadsetFinish(engine::HeadsetSession& session, const engine::HeadsetFrame& frame,
+  // `locate`: returns the eyes' newest poses.
+  HeadsetFinish(engine::HeadsetSession& session, std::function<engine::HeadsetEyes()> locate,
                 const engine::HeadsetSession::Images& images, engine::GpuImage& depth, UiCanvas& panel,
                 const engine::EyePose& seat, double near_plane)
       : session_(session),
-        frame_(frame),
+        locate_(std::move(locate)),
         images_(images),
         depth_(depth),
         panel_(panel),
@@ -119,7 +224,7 @@ class HeadsetFinish final : public engine::Renderer::Finish {
   }
 
   std::span<const engine::View> late_views() override {
-    eyes_ = session_.locate(frame_);
+    eyes_ = locate_();
     views_ = views_in(seat_, eyes_, near_plane_);
     return views_;
   }
@@ -133,7 +238,7 @@ class HeadsetFinish final : public engine::Renderer::Finish {
   }
 
   engine::HeadsetSession& session_;
-  const engine::HeadsetFrame& frame_;
+  std::function<engine::HeadsetEyes()> locate_;
   engine::HeadsetSession::Images images_;
   engine::GpuImage& depth_;
   UiCanvas& panel_;
@@ -147,7 +252,7 @@ class HeadsetFinish final : public engine::Renderer::Finish {
 
 void HeadsetView::State::make_mirror(engine::Window& window, engine::UiContext& ui) {
   try {
-    mirror.emplace(gpu, window, ui, config.panel);
+    mirror.emplace(parts.gpu, window, ui, config.panel);
   } catch (const engine::GpuLost&) {
     throw;
   } catch (const engine::GpuError& error) {
@@ -157,7 +262,7 @@ void HeadsetView::State::make_mirror(engine::Window& window, engine::UiContext& 
 
 void HeadsetView::State::show_mirror(const VisibleRegion& region) {
   try {
-    mirror->show(renderer.colour(), region);
+    mirror->show(parts.renderer.colour(), region);
   } catch (const engine::GpuLost&) {
     throw;
   } catch (const engine::GpuError& error) {
@@ -170,50 +275,167 @@ void HeadsetView::State::draw_cabin(const engine::FrameScene& scene, const engin
                                     const engine::HeadsetEyes& from, engine::Renderer::Finish* finish) {
   const std::array<engine::View, 2> views = views_in(seat, from, config.near_plane);
   if (finish != nullptr)
-    renderer.draw(scene, views, {}, *finish);
+    parts.renderer.draw(scene, views, {}, *finish);
   else
-    renderer.draw(scene, views);
+    parts.renderer.draw(scene, views);
   drawn = true;
 }
 
-HeadsetView::HeadsetView(const HeadsetViewConfig& config, std::unique_ptr<engine::HeadsetRuntime> runtime,
-                         engine::Window& window, engine::UiContext& ui)
-    : state_(std::make_unique<State>(config, std::move(runtime), window, ui)) {}
-
-HeadsetView::~HeadsetView() {
-  state_->gpu.wait_idle();
+template <class Work>
+void HeadsetView::State::start(Step next, Work work) {
+  step = next;
+  called_at = Clock::now();
+  call = headset->state_->thread.start([work, shared = headset->state_->handover] { work(*shared, *shared->parts); });
 }
 
-void HeadsetView::set_model(const engine::Model& model) {
-  state_->renderer.set_model(model);
+bool HeadsetView::State::is_done(Step wanted) {
+  if (step != wanted) return false;
+  if (!call.valid()) return true;
+  if (call.wait_for(is_held ? kHeldTimeout : kCallTimeout) != std::future_status::ready) {
+    is_held = true;
+    return false;
+  }
+  is_held = false;
+  call.get();
+  return true;
+}
+
+// A frame may be held back for ever, for example while nobody wears the headset.
+void HeadsetView::State::throw_if_lost() const {
+  if (Clock::now() - called_at < kLostAfter || parts.session.is_waiting()) return;
+  throw engine::HeadsetLost(
+      fmt::format("{} has not answered for {} s", parts.runtime.traits().runtime, kLostAfter.count()));
+}
+
+// Begins a frame if the session is running. Returns false while the runtime has not begun it.
+bool HeadsetView::State::take_begun() {
+  if (step == Step::none) {
+    start(Step::begin, [](Handover& to, HeadsetParts& of) {
+      to.frame.reset();
+      of.session.poll();
+      to.state = of.session.state();
+      to.is_running = of.session.is_running();
+      if (!to.is_running) return;
+      to.frame = of.session.wait();
+      to.eyes = of.session.locate(*to.frame);
+      while (const std::optional<engine::SpaceChange> change = of.session.take_due_space_change(*to.frame))
+        to.changes.push_back(*change);
+      to.hands = of.session.hands(*to.frame);
+    });
+  }
+  if (!is_done(Step::begin)) return false;
+  step = Step::none;
+  state = at.state;
+  is_running = at.is_running;
+  frame = at.frame;
+  if (frame) {
+    is_acquired = false;
+    is_shown = frame->should_render;
+    eyes = at.eyes;
+  }
+  return true;
+}
+
+void HeadsetView::State::acquire(bool with_panel) {
+  if (step == Step::none)
+    start(Step::acquire,
+          [with_panel](Handover& to, HeadsetParts& of) { to.images = of.session.acquire_images(with_panel); });
+  is_acquired = is_done(Step::acquire);
+}
+
+// The newest poses of the eyes; those of the frame's begin if the runtime does not return in time.
+engine::HeadsetEyes HeadsetView::State::locate() {
+  start(Step::locate, [frame = *frame](Handover& to, HeadsetParts& of) { to.late_eyes = of.session.locate(frame); });
+  return is_done(Step::locate) ? at.late_eyes : eyes;
+}
+
+// `drawn_from`: null if nothing is to be shown.
+void HeadsetView::State::end(const engine::HeadsetEyes* drawn_from, const engine::HeadsetPanel* hung) {
+  const auto copy = [](const auto* value) { return value ? std::optional(*value) : std::nullopt; };
+  start(Step::end, [frame = *frame, from = copy(drawn_from), panel = copy(hung), near_plane = config.near_plane](
+                       Handover& to, HeadsetParts& of) {
+    of.session.end(frame, from ? &*from : nullptr, near_plane, panel ? &*panel : nullptr);
+    to.ended_ns = of.session.now_ns();
+  });
+  ended = *frame;
+  frame.reset();
+}
+
+// Returns false while the runtime has not returned from the frame's end.
+bool HeadsetView::State::finish_end() {
+  if (!is_done(Step::end)) return false;
+  step = Step::none;
+  times.add(ended, at.ended_ns, gpu_ms);
+  return true;
+}
+
+void HeadsetView::State::draw_frame(const engine::FrameScene& scene, const engine::EyePose& seat,
+                                    const engine::HeadsetPanel* hung) {
+  const bool shows = frame->should_render;
+  drawn_frame = is_acquired && at.images.colour != nullptr;
+  if (drawn_frame) {
+    HeadsetFinish finish(
+        parts.session, [this] { return locate(); }, at.images, parts.renderer.depth(), panel, seat, config.near_plane);
+    const std::lock_guard lock(parts.gpu.queue_mutex());
+    draw_cabin(scene, seat, eyes, &finish);
+    eyes = shown_eyes = finish.eyes();
+  }
+  gpu_ms = drawn_frame ? parts.renderer.times().all : 0.0;
+  // If no image could be acquired, the headset shows the previous image again, with the eye poses from which that
+  // image was drawn.
+  end(shows ? &shown_eyes : nullptr, shows ? hung : nullptr);
+  (void)finish_end();
+}
+
+void HeadsetView::State::draw_mirror(const engine::FrameScene& scene, const engine::EyePose& seat,
+                                     const VisibleRegion& region) {
+  if (!mirror || !mirror->is_due()) return;
+  const std::unique_lock lock(parts.gpu.queue_mutex(), std::try_to_lock);
+  if (!lock) return;  // the runtime may be using the queue
+  if (!drawn_frame) draw_cabin(scene, seat, is_shown ? eyes : at_origin, nullptr);
+  if (drawn) show_mirror(region);
+}
+
+HeadsetView::HeadsetView(std::unique_ptr<OpeningHeadset> opened, engine::Window& window, engine::UiContext& ui)
+    : state_(std::make_unique<State>(std::move(opened), window, ui)) {}
+
+HeadsetView::~HeadsetView() = default;
+
+bool HeadsetView::set_model(const engine::Model& model) {
+  const std::unique_lock lock(state_->parts.gpu.queue_mutex(), std::try_to_lock);
+  if (lock) state_->parts.renderer.set_model(model);
+  return lock.owns_lock();
 }
 
 bool HeadsetView::begin() {
   State& s = *state_;
-  s.frame.reset();
-  s.session.poll();
-  if (!s.session.is_running()) {
-    s.times.pause();
-    s.is_shown = false;
-    return false;
+  if (s.step == State::Step::acquire) {  // of an earlier frame
+    if (s.is_done(State::Step::acquire))
+      s.is_acquired = true;
+    else
+      s.throw_if_lost();
+    return true;
   }
-  s.frame = s.session.wait(kFrameTimeout);
-  if (!s.frame) return true;
-  s.is_shown = s.frame->should_render;
-  s.eyes = s.session.locate(*s.frame);
-  return true;
+  if (s.step == State::Step::end && !s.finish_end()) {
+    s.throw_if_lost();
+    return true;
+  }
+  if (!s.take_begun()) {
+    s.throw_if_lost();
+    return s.is_running;
+  }
+  if (s.is_running) return true;
+  s.times.pause();
+  s.is_shown = false;
+  return false;
 }
 
 bool HeadsetView::has_begun() const noexcept {
-  return state_->frame.has_value();
+  return state_->frame.has_value() && !state_->call.valid();
 }
 
-bool HeadsetView::is_waiting() const noexcept {
-  return state_->session.is_waiting();
-}
-
-void HeadsetView::release_window() {
-  state_->mirror.reset();
+bool HeadsetView::is_held() const noexcept {
+  return state_->is_held;
 }
 
 bool HeadsetView::is_shown() const noexcept {
@@ -224,49 +446,38 @@ const engine::HeadsetEyes& HeadsetView::eyes() const noexcept {
   return state_->eyes;
 }
 
-std::array<engine::HeadsetHand, 2> HeadsetView::hands() {
-  return state_->frame ? state_->session.hands(*state_->frame) : std::array<engine::HeadsetHand, 2>{};
+const std::array<engine::HeadsetHand, 2>& HeadsetView::hands() const noexcept {
+  return state_->at.hands;
 }
 
 std::optional<engine::SpaceChange> HeadsetView::take_due_space_change() {
-  return state_->frame ? state_->session.take_due_space_change(*state_->frame) : std::nullopt;
+  std::vector<engine::SpaceChange>& changes = state_->at.changes;
+  if (changes.empty()) return std::nullopt;
+  const engine::SpaceChange first = changes.front();
+  changes.erase(changes.begin());
+  return first;
 }
 
 void HeadsetView::draw(const engine::FrameScene& scene, const engine::EyePose& cabin_from_room,
                        const engine::HeadsetPanel* panel, const VisibleRegion& region) {
   State& s = *state_;
-  const bool mirror_is_due = s.mirror && s.mirror->is_due();
-  engine::HeadsetSession::Images images;
-  if (s.frame && s.frame->should_render) images = s.session.acquire_images(panel != nullptr);
-  if (images.colour) {
-    HeadsetFinish finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room,
-                         s.config.near_plane);
-    s.draw_cabin(scene, cabin_from_room, s.eyes, &finish);
-    s.eyes = s.shown_eyes = finish.eyes();
-  } else if (mirror_is_due) {
-    s.draw_cabin(scene, cabin_from_room, is_shown() ? s.eyes : s.at_origin, nullptr);
-  }
-  if (s.frame) {
-    // If no image could be acquired, the headset shows the previous image again, with the eye poses from which that
-    // image was drawn.
-    const bool shows = s.frame->should_render;
-    s.session.end(*s.frame, shows ? &s.shown_eyes : nullptr, s.config.near_plane, shows ? panel : nullptr);
-    s.times.add(*s.frame, s.session.now_ns(), images.colour ? s.renderer.times().all : 0.0);
-    s.frame.reset();
-  }
-  if (mirror_is_due && s.drawn) s.show_mirror(region);
+  const bool has_frame = has_begun();
+  s.drawn_frame = false;
+  if (has_frame && s.frame->should_render && !s.is_acquired) s.acquire(panel != nullptr);
+  if (has_begun()) s.draw_frame(scene, cabin_from_room, panel);
+  s.draw_mirror(scene, cabin_from_room, region);
 }
 
 const engine::HeadsetTraits& HeadsetView::headset() const noexcept {
-  return state_->runtime->traits();
+  return state_->parts.runtime.traits();
 }
 
 engine::HeadsetState HeadsetView::state() const noexcept {
-  return state_->session.state();
+  return state_->state;
 }
 
 bool HeadsetView::is_room_persistent() const noexcept {
-  return state_->session.is_stage();
+  return state_->at.is_stage;
 }
 
 const engine::HeadsetTiming& HeadsetView::timing() const noexcept {
@@ -274,7 +485,7 @@ const engine::HeadsetTiming& HeadsetView::timing() const noexcept {
 }
 
 glm::ivec2 HeadsetView::eye_size() const noexcept {
-  return {state_->renderer.config().width, state_->renderer.config().height};
+  return {state_->parts.renderer.config().width, state_->parts.renderer.config().height};
 }
 
 std::string HeadsetView::take_message() {
@@ -282,7 +493,7 @@ std::string HeadsetView::take_message() {
 }
 
 std::uint64_t HeadsetView::validation_messages() const {
-  return state_->gpu.validation_messages();
+  return state_->parts.gpu.validation_messages();
 }
 
 }  // namespace gearshift::cabin

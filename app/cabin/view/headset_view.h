@@ -24,27 +24,43 @@ struct HeadsetViewConfig {
   glm::ivec2 panel{1920, 1080};  // [px] size of the panel's image; gives the lesson card 32 px per degree
 };
 
+// A headset that is being opened: the runtime, and what draws its pictures. Everything is made, used and destroyed on a
+// HeadsetThread. Whoever destroys it, or the view made of it, waits for nothing; what a hung runtime blocks is left
+// behind, see engine::HeadsetThread::wait_for_ended().
+class OpeningHeadset {
+ public:
+  explicit OpeningHeadset(const HeadsetViewConfig& config);  // throws HeadsetError if no thread can be started
+  ~OpeningHeadset();
+  // False while it is not open yet. Throws why opening failed: HeadsetError, HeadsetAbsent, HeadsetLost or GpuError.
+  bool is_open();
+
+ private:
+  friend class HeadsetView;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 class HeadsetView {
  public:
-  // window and ui must outlive the view. Throws HeadsetError with a one-sentence message, or GpuError.
-  HeadsetView(const HeadsetViewConfig& config, std::unique_ptr<engine::HeadsetRuntime> runtime, engine::Window& window,
-              engine::UiContext& ui);
+  // `opened`: is_open(). window and ui must outlive the view. Throws GpuError.
+  HeadsetView(std::unique_ptr<OpeningHeadset> opened, engine::Window& window, engine::UiContext& ui);
   ~HeadsetView();
 
-  void set_model(const engine::Model& model);
+  // Uploads the model. Returns false, having done nothing, while the runtime may be using the GPU's queue.
+  bool set_model(const engine::Model& model);
 
   // Polls the headset. If the headset is in use, waits for its next frame, locates the eyes and returns true; draw()
-  // must follow. If the runtime withholds the frame for more than 50 ms, returns true without a frame (see
-  // has_begun()), so that the user's keys for the lever are not delayed. This and the other functions throw
+  // must follow. If the runtime takes more than 50 ms, returns true without a frame (see has_begun()), so that nothing
+  // else waits for the runtime; later calls then wait for 5 ms only. A runtime may hold back a frame for ever; if it
+  // does not return from another call within 5 s, this throws HeadsetLost. This and the other functions throw
   // HeadsetLost, after which the view must be recreated.
   bool begin();
   bool has_begun() const noexcept;                   // true between begin() and draw()
-  bool is_waiting() const noexcept;                  // the runtime withholds a frame; the destructor waits for it
-  void release_window();                             // ends the mirror, so that a different view can use the window
+  bool is_held() const noexcept;                     // the runtime has not returned from a call in time
   bool is_shown() const noexcept;                    // true if the headset displays the newest frame
   const engine::HeadsetEyes& eyes() const noexcept;  // poses of the eyes in the room
-  // Call the next two functions only if has_begun().
-  std::array<engine::HeadsetHand, 2> hands();  // left and right hand, poses in the room
+  // Of the frame that has begun.
+  const std::array<engine::HeadsetHand, 2>& hands() const noexcept;  // left and right hand, poses in the room
   std::optional<engine::SpaceChange> take_due_space_change();
 
   // Draws from the current eye poses, submits the frame, and then updates the mirror. `cabin_from_room`: see

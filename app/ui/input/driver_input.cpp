@@ -205,6 +205,14 @@ void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
   if (!was_down && is_once(action)) trigger(action);
 }
 
+bool DriverInput::stops(const engine::KeyEvent& key, bool ui_has_keys) const {
+  const auto& bound = bound_on(kKeyboard);
+  const auto stop = bound.find(Action::stop);
+  const bool is_bound =
+      stop != bound.end() && std::find(stop->second.begin(), stop->second.end(), key.key) != stop->second.end();
+  return key.down && is_bound && (!ui_has_keys || !types_text(key.key));
+}
+
 void DriverInput::trigger(Action action) {
   pressed_.push_back(action);
   if (action == Action::grab_mouse) mouse_moves_lever_ = !mouse_moves_lever_;

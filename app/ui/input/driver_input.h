@@ -64,6 +64,9 @@ class DriverInput {
   // the panel uses the keyboard.
   void update(const engine::WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys);
 
+  // True if this key press switches the motors off. `ui_has_keys`: as in update().
+  bool stops(const engine::KeyEvent& key, bool ui_has_keys) const;
+
   const haptics::HandTarget& hand() const noexcept { return hand_; }
   const haptics::DriverControls& controls() const noexcept { return controls_; }  // pedal axes only, no pedal keys
   // Pedal keys held until the next update(). A key pressed and released between two frames is held for one frame.

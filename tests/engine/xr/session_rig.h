@@ -95,7 +95,7 @@ struct SessionRig {
   std::optional<engine::HeadsetFrame> run_frame() {
     session->poll();
     if (!session->is_running()) return std::nullopt;
-    const engine::HeadsetFrame frame = session->wait(std::chrono::hours(1)).value();
+    const engine::HeadsetFrame frame = session->wait();
     eyes = session->locate(frame);
     engine::HeadsetSession::Images images;
     if (frame.should_render) images = session->acquire_images(panel.has_value());

@@ -239,6 +239,10 @@ void Emulation::run_order(const std::string& order, double time) {
   } else if (verb == "hold" && stream >> button && button >= 1 && button <= 64) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
     stick_->held_buttons |= std::uint64_t{1} << (button - 1);
+  } else if (verb == "mark") {
+    std::string name;
+    std::getline(stream >> std::ws, name);
+    events_.insert(next, {time, name, {}});
   } else if (verb == "unplug") {
     events_.insert(next, {time, "the unplug", [this] { plug(false); }});
   } else if (verb == "plug") {
@@ -351,8 +355,10 @@ int run(int count, char** arguments) {
                "the stick has its own power supply: after an unplug its effects run to their end");
   cli.add_flag("--realtime", options.realtime, "with a real-time priority, if permitted");
   cli.add_option("--log", options.log, "log file of all messages to the stick: time [s] and message per line");
-  cli.add_option("--orders", options.orders,
-                 "pipe with one order per line: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
+  cli.add_option(
+      "--orders", options.orders,
+      "pipe with one order per line: go X Y [mm], hold BUTTON, unplug, plug, mark NAME (an event of the summary); a "
+      "hand holds the lever");
   cli.add_option("program", options.command, "program and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
   if (options.realtime) never_wait();

@@ -1,9 +1,11 @@
 // Code that runs in every OpenXR function: rules, injected failures, the log; the functions that the OpenXR loader gets.
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include "tests/support/xr_runtime/state.h"
 
@@ -35,6 +37,7 @@ void restart(Control& control) {
   State& s = state();
   const std::lock_guard lock(s.mutex);
   control.record = {.live_handles = control.record.live_handles};
+  control.ends_hangs = false;
   s.events.clear();
   s.begin = 0;
   s.next_step = 0;
@@ -116,6 +119,29 @@ std::optional<XrResult> injected_failure(const char* function) {
     return result;
   }
   return std::nullopt;
+}
+
+void hang_if_injected(const char* function) {
+  State& s = state();
+  const double span = [&] {
+    const std::lock_guard lock(s.mutex);
+    std::vector<Hang>& hangs = s.control.script.hangs;
+    for (auto hang = hangs.begin(); hang != hangs.end(); ++hang) {
+      if (hang->function != function || (hang->at > 0.0 && seconds(s, now(s)) < hang->at)) continue;
+      const double found = hang->span;
+      hangs.erase(hang);
+      log_line(std::string("hangs ") + function);
+      return found;
+    }
+    return 0.0;
+  }();
+  if (span <= 0.0) return;
+  ++s.control.hanging;
+  const auto begun = std::chrono::steady_clock::now();
+  while (!s.control.ends_hangs &&
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() < span)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  --s.control.hanging;
 }
 
 const char* out_folder() {

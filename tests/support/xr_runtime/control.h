@@ -5,6 +5,7 @@
 #include <openxr/openxr.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -85,6 +86,13 @@ struct Failure {
   int nth = 1;  // counted from now, only the nth call fails; 1: the next call
 };
 
+// Blocks a call before it does anything, as a runtime whose service is stopped does.
+struct Hang {
+  std::string function{};
+  double at = 0.0;    // [s] on Script's clock: the first call from then on hangs
+  double span = 1e9;  // [s]; it also ends with Control::ends_hangs
+};
+
 struct Gap {                       // An interruption of head tracking, without poses.
   double from = 0.0, until = 0.0;  // [s]
 };
@@ -111,6 +119,7 @@ struct Script {
   std::map<std::string, std::function<double(double)>> inputs{};  // ["/user/hand/right/input/trigger/value"]
   std::vector<Event> timeline{};
   std::vector<Failure> failures{};
+  std::vector<Hang> hangs{};
   int capture_every = 0;  // records the pixels of every n-th frame; 0: of none. Other data is always recorded.
 };
 
@@ -176,6 +185,8 @@ struct Record {
 struct Control {
   Script script;  // may be changed in a session: poses, inputs, timeline, failures, capture_every, headset
   Record record;
+  std::atomic<int> hanging{0};          // calls that hang now
+  std::atomic<bool> ends_hangs{false};  // true: no call hangs any more
   std::span<const Rule> rules{};
   void (*restart)(Control&) = nullptr;
   Script (*read_script)(const char* file) = nullptr;  // reads a script file; throws std::runtime_error

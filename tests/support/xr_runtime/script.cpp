@@ -172,6 +172,14 @@ void read_failure(TableReader& table, Script& script) {
   script.failures.push_back(failure);
 }
 
+void read_hang(TableReader& table, Script& script) {
+  Hang hang;
+  table.read("function", hang.function);
+  table.read("at", hang.at);
+  table.read("span", hang.span);
+  script.hangs.push_back(hang);
+}
+
 }  // namespace
 
 Script read_script(const char* file) {
@@ -200,6 +208,7 @@ Script read_script(const char* file) {
   table.for_each("input", [&](TableReader& one) { read_input(one, script); });
   table.for_each("event", [&](TableReader& one) { read_event(one, script); });
   table.for_each("failure", [&](TableReader& one) { read_failure(one, script); });
+  table.for_each("hang", [&](TableReader& one) { read_hang(one, script); });
   table.read("capture_every", script.capture_every);
   table.check_complete();
   return script;

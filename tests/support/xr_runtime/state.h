@@ -165,11 +165,13 @@ inline void require(bool holds, const char* rule, const std::string& detail = {}
   if (!holds) reject_call(write_violation(rule, detail));
 }
 std::optional<XrResult> injected_failure(const char* function);
-void log_line(const std::string& line);  // writes to log.txt in a flow test
+void hang_if_injected(const char* function);  // call without the lock
+void log_line(const std::string& line);       // writes to log.txt in a flow test
 
 template <class Body>
 XrResult call(const char* function, Body&& body) {
   State& s = state();
+  hang_if_injected(function);
   const std::lock_guard lock(s.mutex);
   s.function = function;
   ++s.control.record.calls[function];
