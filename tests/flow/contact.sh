@@ -39,8 +39,15 @@ check "another seed gives others" [ "$(cmp -s first out || echo differs)" = diff
 # Negative controls: a hold that does not know the delay, and a textbook spring at 100 Hz.
 answers --delay 2 --hold half_sample --wall-stiffness 5000 --json
 check "without the observer the wall is softer" json "wall['k_n_per_m'] < 4000"
-answers --hold zero_order --wall-damping 0 --rate 500 --hand bare --json
+textbook='[loop]\nrate_hz = 500\n[tuning]\nwall_damping_n_s_per_m = 0\n[contact]\nhold = "zero_order"\n'
+printf "name = \"Textbook\"\n${textbook}study = true\n" >study.toml
+printf "name = \"Textbook\"\n$textbook" >textbook.toml
+answers --preset study.toml --hand bare --json
 check "a textbook spring gives energy" json "wall['energy_worst_fraction'] > 0"
+answers --preset textbook.toml --hand bare --json
+check "without a study it has the damping that takes it" json "wall['energy_worst_fraction'] < 0 and wall['b_n_s_per_m'] > 10"
+answers --preset textbook.toml --hand bare
+check "which is reported" grep -q "wall_damping_n_s_per_m raised from 0 to .*gains energy" out
 
 answers --hand random --rate 200 --push 30 4 --speed 0.3 --place 0.5 --json
 check "random hands, one run each" json "len(wall['hands']) == 10 and wall['runs'] == 1 and wall['push_n'] == [4, 30]"
