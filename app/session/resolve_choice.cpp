@@ -53,6 +53,14 @@ vehicle::CarSpec read_shipped_car(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> gearbox_names() {
+  std::vector<std::string> names = base::shipped_names("gates");
+  std::erase_if(names, [](const std::string& name) {
+    return !haptics::read_gate_layout(base::find_asset("gates", name)).aisles.empty();
+  });
+  return names;
+}
+
 ResolvedCar resolve_car(const SessionChoice& choice) {
   ResolvedCar chosen;
   chosen.car = choice.car.empty() ? std::string(kDefaultCar) : choice.car;

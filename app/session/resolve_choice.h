@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/lessons/assessment/lesson.h"
 #include "app/session/session_choice.h"
@@ -19,6 +20,9 @@ struct ResolvedCar {
   std::optional<vehicle::CarSpec> spec;  // empty: kNoCar
   haptics::GateLayout layout;
 };
+
+// Names of the shipped gates that a trainer can have: without mechanisms of aisles. Throws FileError.
+std::vector<std::string> gearbox_names();
 
 // Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
 // std::runtime_error with a one-sentence message.

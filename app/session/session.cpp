@@ -6,6 +6,7 @@
 #include "app/base/assets_path.h"
 #include "app/runtime/thin_out.h"
 #include "app/session/preset_store.h"
+#include "app/session/resolve_choice.h"
 #include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift::session {
@@ -44,7 +45,7 @@ Session::Session(const SessionChoice& choice)
   why_silent_ = sound_.silence_reason();
   const bool missed = choice.sound == engine::SoundOutput::card && !why_silent_.empty();
   if (missed && message_.empty()) message_ = why_silent_;
-  panel_.gates = base::shipped_names("gates");
+  panel_.gates = gearbox_names();
   panel_.presets = preset_names();
   panel_.cars = base::shipped_names("cars");
   panel_.cars.emplace_back(kNoCar);

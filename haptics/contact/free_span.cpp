@@ -68,7 +68,8 @@ FreeSpan span_in_aisles(const Gate& gate, const Passage& passage, glm::dvec2 poi
 // It suffices to examine the neutral aisle and the nearest column with its mouths: columns with their mouths do not
 // overlap, and only the neutral aisle lies between them.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
-  if (is_mechanism(gate)) return span_in_aisles(gate, passage, point);
+  if (is_mechanism(gate)) [[unlikely]]
+    return span_in_aisles(gate, passage, point);
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   const Mouth forward = mouth_of(gate, passage, column, Side::forward);
   const Mouth back = mouth_of(gate, passage, column, Side::back);

@@ -48,7 +48,8 @@ dvec2 next_leg_in_aisles(const Gate& gate, const Passage& passage, dvec2 p, dvec
 // Target of the proxy's next straight move: the point nearest to the lever in any aisle or mouth that contains the
 // proxy.
 dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
-  if (is_mechanism(gate)) return next_leg_in_aisles(gate, passage, p, lever);
+  if (is_mechanism(gate)) [[unlikely]]
+    return next_leg_in_aisles(gate, passage, p, lever);
   dvec2 best = p;
   double best2 = distance2(p, lever);
   const auto consider = [&](dvec2 q) {
@@ -87,7 +88,8 @@ dvec2 nearest_in_aisles(const Gate& gate, dvec2 lever) noexcept {
 
 Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
   const Passage passage = open_passage(gate);
-  if (is_mechanism(gate)) return {nearest_in_aisles(gate, lever), lever};
+  if (is_mechanism(gate)) [[unlikely]]
+    return {nearest_in_aisles(gate, lever), lever};
   dvec2 best = nearest(neutral_aisle(gate, passage), lever);
   const auto consider = [&](dvec2 q) {
     if (distance2(q, lever) < distance2(best, lever)) best = q;

@@ -107,14 +107,16 @@ double max_mechanism_stiffness(const Gate& gate) noexcept {
 }  // namespace
 
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept {
-  if (is_mechanism(gate)) return place_at(gate, point);
+  if (is_mechanism(gate)) [[unlikely]]
+    return place_at(gate, point);
   if (std::abs(point.y) <= gate.half_aisle) return kNoSlot;
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   return point.y > 0.0 ? column.forward_slot : column.back_slot;
 }
 
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
-  if (is_mechanism(gate)) return mechanism_feel(gate, proxy);
+  if (is_mechanism(gate)) [[unlikely]]
+    return mechanism_feel(gate, proxy);
   const double along = feel_force(shift_curve(gate, proxy), std::abs(proxy.y));
   glm::dvec2 force{feel_force(gate.select_feel, proxy.x), shift_sign(proxy.y) * along};
   for (const Buffer& buffer : buffers(gate)) force += buffer_force(gate, buffer, proxy);
@@ -122,7 +124,8 @@ glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
 }
 
 double max_feel_stiffness(const Gate& gate) noexcept {
-  if (is_mechanism(gate)) return max_mechanism_stiffness(gate);
+  if (is_mechanism(gate)) [[unlikely]]
+    return max_mechanism_stiffness(gate);
   double steepest = std::min(slope_range(gate.select_feel).min, slope_range(gate.aisle_feel).min);
   for (const Slot& slot : slots(gate)) steepest = std::min(steepest, slope_range(slot.feel).min);
   return -steepest;

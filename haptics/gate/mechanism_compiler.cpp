@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/number_text.h"
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/gate_checks.h"
 #include "haptics/gate/gate_curves.h"
 
@@ -34,7 +36,7 @@ std::string point_text(dvec2 p) {
   return "(" + number_text(1e3 * p.x, 3) + ", " + number_text(1e3 * p.y, 3) + ") mm";
 }
 
-// ---- aisles
+// Aisles
 
 void add_aisles(const GateLayout& layout, Gate& gate) {
   if (layout.aisles.size() > kMaxAisles)
@@ -108,7 +110,7 @@ void check_reach(const GateLayout& layout, const Gate& gate, dvec2 workspace, do
   }
 }
 
-// ---- places
+// Places
 
 std::string place_text(const PlaceLayout& place) {
   const std::string name = place.label.empty() ? std::string(gear_name(place.gear)) : place.label;
@@ -190,31 +192,26 @@ void add_places(const GateLayout& layout, Gate& gate) {
     reject(layout, layout.places.front().line, "a gate needs a place beside the neutral one");
 }
 
-// ---- springs
+// Springs
 
-// Knots of a constant force towards `to` on one stretch. It rises and falls smoothly next to other aisles and at `to`; at
-// a dead end it stays constant.
+// Adds knots of a constant force from `low` to `high`, with a ramp at the ends where it is zero.
+void add_flank(double low, bool rises, double high, bool falls, double force, std::vector<FeelKnot>& knots) {
+  constexpr double kRamp = 0.006;  // [m]
+  if (high - low < 1e-6) return;
+  const double ramp = std::min(kRamp, (high - low) / 2.0);
+  if (rises) knots.push_back({low, 0.0, 0.0});
+  knots.push_back({rises ? low + ramp : low, force, 0.0});
+  knots.push_back({falls ? high - ramp : high, force, 0.0});
+  if (falls) knots.push_back({high, 0.0, 0.0});
+}
+
+// The force towards `to` on one stretch. It is zero at `to` and next to other aisles, but not at a dead end.
 void add_stretch(LineInterval stretch, double to, double force, double length, std::vector<FeelKnot>& knots) {
-  const double ramp = std::min(0.006, (stretch.high - stretch.low) / 2.0);
-  const auto flank = [&](double low, double high, double sign) {
-    if (high - low < 1e-6) return;
-    const double part = std::min(ramp, (high - low) / 2.0);
-    const bool ends_low = low <= 1e-9, ends_high = high >= length - 1e-9;
-    if (!ends_low && low != to) knots.push_back({low, 0.0, 0.0});
-    if (low == to) knots.push_back({low, 0.0, 0.0});
-    if (!ends_low || low == to) knots.push_back({low + part, sign * force, 0.0});
-    if (ends_low && low != to) knots.push_back({low, sign * force, 0.0});
-    if (ends_high && high != to) {
-      knots.push_back({high, sign * force, 0.0});
-      return;
-    }
-    knots.push_back({high - part, sign * force, 0.0});
-    knots.push_back({high, 0.0, 0.0});
-  };
-  if (to <= stretch.low) return flank(stretch.low, stretch.high, -1.0);
-  if (to >= stretch.high) return flank(stretch.low, stretch.high, +1.0);
-  flank(stretch.low, to, +1.0);
-  flank(to, stretch.high, -1.0);
+  const bool rises = stretch.low > 0.0, falls = stretch.high < length;
+  if (to <= stretch.low) return add_flank(stretch.low, true, stretch.high, falls, -force, knots);
+  if (to >= stretch.high) return add_flank(stretch.low, rises, stretch.high, true, force, knots);
+  add_flank(stretch.low, rises, to, true, force, knots);
+  add_flank(to, true, stretch.high, falls, -force, knots);
 }
 
 void add_spring(const GateLayout& layout, std::size_t index, Gate& gate) {
@@ -287,7 +284,7 @@ void add_return(const GateLayout& layout, Gate& gate) {
   gate.return_feel = make_feel_curve(centring_knots(force, 0.006));
 }
 
-// ---- lockouts
+// Lockouts
 
 // Each aisle of the place must be long enough for the lever to stop before the lockout.
 void check_lockout_room(const GateLayout& layout, const Gate& gate, const LockoutLayout& from, const Slot& place) {

@@ -68,12 +68,35 @@ base::Pen wall_pen(haptics::WallRole role) {
   return {};
 }
 
+// Where a place's name is written: beside it, outside the aisles.
+struct PlaceName {
+  glm::dvec2 at{0.0};
+  const char* anchor = "middle";
+};
+
+PlaceName place_name(const haptics::Gate& gate, const haptics::Slot& place) {
+  double half_width = 0.0;
+  for (int i = 0; i < gate.aisle_count; ++i)
+    if ((place.aisles >> i & 1u) != 0)
+      half_width = std::max(half_width, gate.aisle[static_cast<std::size_t>(i)].half_width);
+  constexpr double kSide = 0.7071;
+  const PlaceName ways[] = {{{0.0, 1.0}, "middle"},    {{0.0, -1.0}, "middle"},   {{1.0, 0.0}, "start"},
+                            {{-1.0, 0.0}, "end"},      {{kSide, kSide}, "start"}, {{-kSide, kSide}, "end"},
+                            {{kSide, -kSide}, "start"}};
+  for (const PlaceName& way : ways) {
+    const PlaceName name{place.at + (half_width + 4e-3) * way.at, way.anchor};
+    if (!haptics::in_free_space(gate, name.at, 2e-3)) return name;
+  }
+  return {place.at, "middle"};
+}
+
 void draw_places(base::Svg& svg, const haptics::Gate& gate) {
   for (const haptics::Slot& place : haptics::slots(gate)) {
     const glm::dvec2 at = on_page(place.at);
     svg.ring(at, mm(place.end - place.engage_depth), {base::kGearColour, 0.25});
     svg.dot(at, 0.7, base::kGearColour);
-    svg.text(at + glm::dvec2(1.2, -0.9), {4.2, base::kGearColour, "start", true},
+    const PlaceName name = place_name(gate, place);
+    svg.text(on_page(name.at) + glm::dvec2(0.0, 1.5), {4.2, base::kGearColour, name.anchor, true},
              haptics::gear_label(gate, place.gear));
   }
 }

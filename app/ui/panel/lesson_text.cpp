@@ -95,7 +95,10 @@ std::string readable_name(std::string_view key) {
       {"five_speed_r_right_down", "5-speed, R bottom right"},
       {"six_speed_r_left_up", "6-speed, R top left"},
       {"six_speed_r_left_down", "6-speed, R bottom left"},
-      {"six_speed_r_right_down", "6-speed, R bottom right"}};
+      {"six_speed_r_right_down", "6-speed, R bottom right"},
+      {"six_speed_r_left_spring", "6-speed, R behind a spring"},
+      {"open_gate_six", "6-speed, open gate"},
+      {"seven_speed", "7-speed"}};
   for (const auto& [gate, title] : kShippedGates)
     if (key == gate) return std::string(title);
   std::string words(key);

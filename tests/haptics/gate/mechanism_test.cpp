@@ -121,7 +121,7 @@ TEST_CASE("a tee has one junction with a closed side, three wall pairs, and wall
   CHECK(closed == Approx(0.010));  // opposite the stem, as wide as it
 }
 
-TEST_CASE("a place counts within half its radius and is released beyond 0.7 of it") {
+TEST_CASE("a place counts within 0.7 of its radius and is released beyond 0.85 of it") {
   const Gate gate = compiled(kTee + place("A", 30, 0, "radius_mm = 10\n"));
   const int position = slot_of(gate, 1).gear;
   CHECK(std::string(gear_label(gate, position)) == "A");
@@ -131,10 +131,10 @@ TEST_CASE("a place counts within half its radius and is released beyond 0.7 of i
     for (int i = 0; i < 3; ++i) (void)selector.update(gate, {0.030 - off, 0.0}, 0.001);
     return selector.gear();
   };
-  CHECK(at(0.0051) == kNeutralGear);
-  CHECK(at(0.0049) == position);
-  CHECK(at(0.0069) == position);
   CHECK(at(0.0071) == kNeutralGear);
+  CHECK(at(0.0069) == position);
+  CHECK(at(0.0084) == position);
+  CHECK(at(0.0086) == kNeutralGear);
 }
 
 TEST_CASE("the spring of an aisle pulls to its point with the force of the file, and not where aisles meet") {
@@ -148,7 +148,7 @@ TEST_CASE("the spring of an aisle pulls to its point with the force of the file,
 
 TEST_CASE("in a cross gate the return force points to the middle from everywhere") {
   const Gate gate = shipped_gate("crane_cross");
-  for (const dvec2 p : {dvec2{0.0115, 0.0}, {-0.0115, 0.0}, {0.0, 0.0115}, {0.0, -0.0115}, {0.0115, 0.003}}) {
+  for (const dvec2 p : {dvec2{0.0125, 0.0}, {-0.0125, 0.0}, {0.0, 0.0125}, {0.0, -0.0125}, {0.0123, 0.002}}) {
     const dvec2 force = gate_feel(gate, p);
     CHECK(glm::length(force) == Approx(5.0));
     CHECK(glm::dot(force, p) == Approx(-5.0 * glm::length(p)));
