@@ -24,7 +24,7 @@ class LessonDirector {
   const lessons::Coach& coach() const { return coach_; }
   const lessons::CoachView& view() const { return coach_.view(); }
   bool is_driving() const { return view().phase == lessons::LessonPhase::driving; }
-  LessonControls controls() const { return {slope_, coach_.guidance(), coach_.guided_gear()}; }
+  LessonControls controls() const { return {slope_, coach_.guidance(), coach_.guided_gear(), coach_.pedal_help()}; }
   bool is_unpassable() const { return is_unpassable_ && is_driving(); }  // the trial can no longer be passed
 
   // `lesson`: a lesson's key or path. Throws FileError.

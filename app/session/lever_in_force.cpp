@@ -220,6 +220,7 @@ void LeverInForce::set_driver(const haptics::HandTarget& hand, const haptics::Dr
 void LeverInForce::send_controls(const LessonControls& lesson) {
   haptics::DriverControls controls = controls_;
   haptics::PedalKeys keys = keys_;
+  keys.slow_clutch = lesson.pedal_help;
   if (is_car_held_) {
     keys = {.clutch = true};
     controls.pedals.throttle = 0.0;

@@ -26,11 +26,12 @@ struct CarSwitches {
 // The first limit that the device imposes on a tuning, as a sentence; empty: none
 std::string first_limit(const haptics::AdmittedTuning& admitted);
 
-// A lesson's additions to the driver's controls: the slope of its road, and guidance of the hand.
+// A lesson's additions to the driver's controls: the slope of its road, and help for hand and feet.
 struct LessonControls {
   double slope = 0.0;     // [rad]
   double guidance = 0.0;  // [1] 0 to 1
   int guided_gear = haptics::kNeutralGear;
+  double pedal_help = 0.0;  // [1] 0 to 1
 };
 
 class LeverInForce {

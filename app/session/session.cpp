@@ -133,6 +133,7 @@ void Session::update_cabin(const engine::EyePose& ears, const std::optional<cabi
   stage_->place(input);
   if (stage_->take_dial_change()) new_model_ = true;
   const glm::vec3 knob = stage_->knob();
+  cabin_sound_.set_bite_tick(director_.coach().pedal_help());
   cabin_sound_.update(live_events(), shown_, car_, ears, knob, time_);
   report_sound();
 }

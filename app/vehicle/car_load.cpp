@@ -50,6 +50,11 @@ double ramped(double pedal, double to, double seconds, double time) noexcept {
   return std::clamp(to, pedal - step, pedal + step);
 }
 
+PedalTiming slowed(PedalTiming timing, double slow_clutch) noexcept {
+  timing.slip_time *= 1.0 + (kSlowClutch - 1.0) * std::clamp(finite_or_zero(slow_clutch), 0.0, 1.0);
+  return timing;
+}
+
 // Returns the position of the released clutch pedal after `seconds`: the pedal rises fast, but slowly from the bite
 // point to the point of full capacity.
 double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch) noexcept {
@@ -113,7 +118,7 @@ const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, doub
   if (keys.clutch)
     pedals_.clutch = ramped(pedals_.clutch, 1.0, seconds, time);
   else if (!keys.clutch_hold)
-    pedals_.clutch = release_clutch(pedals_.clutch, seconds, timing_, clutch_);
+    pedals_.clutch = release_clutch(pedals_.clutch, seconds, slowed(timing_, keys.slow_clutch), clutch_);
   return pedals_;
 }
 

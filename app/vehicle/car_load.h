@@ -45,7 +45,9 @@ void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 // Actuator model of the pedals that keys press. It moves them in every cycle of the car's clock, so that no pedal jumps
 // at a low frame rate. `throttle_light` presses the throttle by a fifth of the travel, or less while the engine turns
 // fast and is not coupled to the wheels. The released clutch pedal rises fast, but slowly while the clutch slips, and
-// stops while `clutch_hold` is held. The hand brake does not move.
+// stops while `clutch_hold` is held. With `slow_clutch` at 1, it slips for kSlowClutch times as long: help for a learner
+// who lets the clutch up too fast. The hand brake does not move.
+inline constexpr double kSlowClutch = 2.5;  // [1] engineering value: 3 s instead of 1.2 s
 class KeyboardPedals {
  public:
   KeyboardPedals(const PedalTiming& timing, const ClutchSpec& clutch) noexcept : timing_(timing), clutch_(clutch) {}

@@ -63,6 +63,7 @@ void print_result(const lessons::CoachView& view) {
   base::print_out("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
   if (lessons::is_graded(result)) base::print_out("Grade {:.1f}/10. ", result.grade);
   base::print_out("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
+  if (!view.mend.empty()) base::print_out("To mend: {}\n", view.mend);
   if (!view.mastery.empty()) base::print_out("{}\n", view.mastery);
 }
 
@@ -136,8 +137,8 @@ class Trials {
     nlohmann::ordered_json run{{"seed", drive.seed}, {"retention_test", view.retention}};
     if (view.run > 0) run["run"] = view.run;
     if (!drive.trace.empty()) run["recording"] = drive.trace.string();
+    if (!view.mend.empty()) run["mend"] = view.mend;
     if (!view.mastery.empty()) run["mastery"] = view.mastery;
-    run["help"] = {{"lever", drive.guidance}, {"pedals", 0.0}};
     run.update(lessons::result_json(*view.result, view.norm));
     runs_.push_back(std::move(run));
   }
@@ -166,8 +167,9 @@ class Trials {
     const lessons::CoachView& view = coach_.view();
     if (view.retention)
       base::print_out("This run tests what you remember after a break of a day or more: no guidance.\n");
-    if (!view.retention && view.guidance == 0.0) base::print_out("No guidance.\n");
-    if (view.guidance > 0.0) base::print_out("Guidance {:.0f} %.\n", 100.0 * view.guidance);
+    if (!view.retention && view.guidance == 0.0 && view.pedal_help == 0.0) base::print_out("No guidance.\n");
+    if (view.guidance > 0.0) base::print_out("Guidance of the lever {:.0f} %.\n", 100.0 * view.guidance);
+    if (view.pedal_help > 0.0) base::print_out("Help with the pedals {:.0f} %.\n", 100.0 * view.pedal_help);
   }
 
   // Deletes automatic recordings to which no saved run refers. Keeps files named with --trace. Returns true if it

@@ -36,6 +36,7 @@ struct Pedals {
 // Keys that press a pedal and are held now. A load that models the pedals moves them, see LeverLoad::move_pedals().
 struct PedalKeys {
   bool throttle = false, throttle_light = false, brake = false, clutch = false, clutch_hold = false;
+  double slow_clutch = 0.0;  // [1] 0 to 1: how much longer the released clutch takes to come up where it bites
   bool operator==(const PedalKeys&) const = default;
 };
 

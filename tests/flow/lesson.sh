@@ -54,7 +54,10 @@ check "there is no grade" exits 1 grep -q "Grade" guided.txt
 check "and no deductions" exits 1 grep -q "  -[0-9]" guided.txt
 learn kim skip_shifts --learner Kim --runs 4 --guided
 check "the last of four runs decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
-check "two of the first four are guided" test "$(grep -c '^Guidance' kim.txt)" -eq 2
+check "nothing failed, so nothing was guided" exits 1 grep -qE '^(Guidance|Help)' kim.txt
+learn json skip_shifts --learner Hand --database hand.db --fault wrong_column --runs 4 --guided --json
+check "errors of the hand bring help for the hand, in at most two of four runs" json "sum(r['lever_help'] > 0 for r in runs) in (1, 2)
+  and max(r['lever_help'] for r in runs) > 3 * max(r['pedal_help'] for r in runs)"
 report --learner Kim --out page --csv
 check "shifts are drawn from the recordings" grep -q 'class="path"' page/index.html
 check "all of them are saved" test "$(rows page/runs.csv)" -eq 6
@@ -72,12 +75,12 @@ json() { python3 -c "import json; d = json.load(open('json.txt')); runs = d['run
 check "JSON" learn json skip_shifts --json
 check "has grade and verdict" json "run['verdict'] == 'passed' and run['grade'] >= 6 and d['car'] == 'hatchback'"
 check "figures with norms" json "len(run['figures']) == 7 and all(f['norm']['up_to'] > f['norm']['typical'] for f in run['figures'])"
-check "and the help of each limb" json "set(run['help']) == {'lever', 'pedals'} and not any(run['help'].values())"
+check "and the help of each limb" json "run['lever_help'] == run['pedal_help'] == 0"
 check "a failed lesson exits with 1" exits 1 learn json hill_start --fault rollback --json --runs 2
 check "its error has severity, time, value and unit" json "len(runs) == 2 and any(e['kind'] == 'rollback' and
   e['severity'] == 'severe' and e['time_s'] > 0 and e['value'] > 0.1 and e['unit'] == 'm' for e in run['errors'])"
 check "a guided lesson has no grade" exits 1 learn json hill_start --guidance 0.5 --json
-check "and says by how much it was guided" json "run['verdict'] == 'not graded' and 'grade' not in run and run['help']['lever'] == 0.5"
+check "and says by how much it was guided" json "run['verdict'] == 'not graded' and 'grade' not in run and run['lever_help'] == 0.5 and run['pedal_help'] == 0"
 
 check "an empty name" refuse "a learner's name must not be empty" hill_start --learner ""
 check "a name of two lines" refuse "control characters" hill_start --learner $'a\nb'

@@ -1,4 +1,4 @@
-// SQL that turns an empty or filled history of version 2 into one of version 1.
+// SQL that turns an empty or filled history of version 3 into one of version 1.
 #pragma once
 
 namespace gearshift::test {
@@ -13,6 +13,10 @@ inline constexpr const char* kToHistoryVersion1 =
     "ALTER TABLE lesson_run DROP COLUMN impulse_n_s;"
     "ALTER TABLE lesson_run DROP COLUMN graded_by;"
     "ALTER TABLE lesson_run DROP COLUMN score;"
+    "ALTER TABLE lesson_run DROP COLUMN car;"
+    "ALTER TABLE lesson_run DROP COLUMN path_length_m;"
+    "ALTER TABLE lesson_run DROP COLUMN lever_help;"
+    "ALTER TABLE lesson_run DROP COLUMN pedal_help;"
     "PRAGMA user_version = 1;";
 
 }  // namespace gearshift::test

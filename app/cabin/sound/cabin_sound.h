@@ -39,6 +39,7 @@ class CabinSound {
   // -Z ahead.
   void update(std::span<const haptics::HapticEvent> events, const haptics::HapticSnapshot& lever,
               const vehicle::VehicleState& car, const engine::EyePose& ears, glm::vec3 knob, double time);
+  void set_bite_tick(double gain) { car_.set_bite_tick(gain); }  // [1] 0 to 1, see CarVoices
   void set_config(const CabinSoundConfig& config);
   const CabinSoundConfig& config() const noexcept { return config_; }
 

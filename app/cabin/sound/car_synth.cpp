@@ -140,4 +140,12 @@ std::vector<float> stall_chime() {
   return out;
 }
 
+std::vector<float> bite_tick() {
+  std::vector<float> out(samples_in(0.12));
+  strike(out, 0.0, 1.0, {{kBiteTone, 0.02, 1.0}, {2.7 * kBiteTone, 0.008, 0.4}});
+  fade_out(out, 0.02);
+  normalise(out, 0.7f);
+  return out;
+}
+
 }  // namespace gearshift::cabin

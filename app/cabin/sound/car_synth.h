@@ -35,4 +35,7 @@ std::vector<float> over_rev_loop();
 inline constexpr double kStallTones[2] = {1046.5, 698.5};  // [Hz]
 std::vector<float> stall_chime();
 
+inline constexpr double kBiteTone = 1760.0;  // [Hz] of the tick at the clutch's bite point, a wooden block
+std::vector<float> bite_tick();
+
 }  // namespace gearshift::cabin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/cabin/sound/car_synth.h"
 #include "haptics/files/parameter.h"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kMinGrindGain = 0.32, kMaxGrindGain = 0.50;  // [1]
 constexpr double kLoudGrind = 100.0;                          // [W] from this power on, the gain is kMaxGrindGain
-constexpr double kStarterGain = 0.30, kJudderGain = 0.60, kLimiterGain = 0.22, kChimeGain = 0.8;  // [1]
+constexpr double kStarterGain = 0.30, kJudderGain = 0.60, kLimiterGain = 0.22, kChimeGain = 0.8,
+                 kTickGain = 0.5;     // [1]
 constexpr double kCutHold = 0.12;     // [s] longer than the pauses between the limiter's fuel cuts
 constexpr float kChimeRadius = 0.5f;  // [m] so large that both ears hear the chime
 
@@ -46,6 +48,7 @@ CarVoices::CarVoices(engine::SoundWorld& world)
       judder_(start_silent_loop(world, judder_loop())),
       limiter_(start_silent_loop(world, limiter_loop())),
       chime_(world.add_clip(stall_chime())),
+      tick_(world.add_clip(bite_tick())),
       cut_(kCutHold, kCutHold) {}
 
 void CarVoices::set(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, double teeth,
@@ -55,6 +58,7 @@ void CarVoices::set(engine::SoundWorld& world, const vehicle::VehicleState& car,
             {at.knob, static_cast<float>(grind), pitch_of(tooth_pass_rate(car.dog_difference, teeth), kGrindLoopRate)});
   update_engine(world, car, engine, at.engine, time);
   play_stall_chime(world, car, at.cluster);
+  play_bite_tick(world, car, at.cluster);
 }
 
 void CarVoices::update_engine(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, glm::vec3 place,
@@ -64,6 +68,12 @@ void CarVoices::update_engine(engine::SoundWorld& world, const vehicle::VehicleS
   world.set(starter_, {place, gain(car.cranking, kStarterGain), pitch_of(rpm(car), kStarterLoopSpeed)});
   world.set(judder_, {place, gain(true, kJudderGain * car.shudder), pitch_of(rpm(car), kJudderLoopSpeed)});
   world.set(limiter_, {place, gain(cuts, kLimiterGain), 1.0f});
+}
+
+void CarVoices::play_bite_tick(engine::SoundWorld& world, const vehicle::VehicleState& car, glm::vec3 place) {
+  const bool is_above = car.pedals.clutch < car.clutch_bite;
+  if (std::exchange(is_above_bite_, is_above) != is_above && bite_tick_ > 0.0)
+    world.play(tick_, {.position = place, .gain = static_cast<float>(kTickGain * bite_tick_), .radius = kChimeRadius});
 }
 
 // Plays the chime once per stall, but not for a car that had already stalled at the start.

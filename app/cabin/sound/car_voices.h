@@ -33,15 +33,21 @@ class CarVoices {
   void set(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, double teeth, const Place& at,
            double time);
 
+  // A tick each time the clutch pedal, pressed or released, passes the bite point: help for the feet. 0: none.
+  void set_bite_tick(double gain) noexcept { bite_tick_ = gain; }
+
  private:
+  void play_bite_tick(engine::SoundWorld& world, const vehicle::VehicleState& car, glm::vec3 place);
   void update_engine(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, glm::vec3 place,
                      double time);
   void play_stall_chime(engine::SoundWorld& world, const vehicle::VehicleState& car, glm::vec3 place);
 
   engine::VoiceId grind_, starter_, judder_, limiter_;
-  engine::ClipId chime_;
-  WarningHold cut_;      // joins the limiter's many short fuel cuts into one continuous stutter
-  bool stalled_ = true;  // was stalled in the last frame; initially true: no chime at the start
+  engine::ClipId chime_, tick_;
+  WarningHold cut_;            // joins the limiter's many short fuel cuts into one continuous stutter
+  double bite_tick_ = 0.0;     // [1]
+  bool is_above_bite_ = true;  // the clutch pedal was above the bite point in the last frame
+  bool stalled_ = true;        // was stalled in the last frame; initially true: no chime at the start
 };
 
 }  // namespace gearshift::cabin

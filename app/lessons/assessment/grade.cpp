@@ -64,6 +64,7 @@ const DrivingError* failing_error(const Lesson& lesson, const LessonResult& resu
 // Returns why the lesson was not passed; empty if it was passed. If an abort condition has already set `result.why`,
 // returns that text, unless the run is not graded.
 std::string reason(const Lesson& lesson, const LessonResult& result, const Norm* norm) {
+  if (result.guided && result.lever_help == 0.0) return "Not graded: you had help with the pedals.";
   if (result.guided) return "Not graded: the lever was guiding you.";
   if (!result.had_forces) return "Not graded: the lever's forces were off.";
   if (!result.is_complete) return "Not graded: part of the drive was not recorded.";
@@ -83,6 +84,14 @@ double grade_by_score(double score, double pass_grade) noexcept {
   const double beyond = (score - 1.0) / (kWorstScore - 1.0), before = (1.0 - score) / (1.0 - kBestScore);
   if (score > 1.0) return pass_grade * std::max(0.0, 1.0 - beyond);
   return pass_grade + (kBestGrade - pass_grade) * std::min(1.0, before);
+}
+
+double limb_error(const LessonResult& result, const Norm* norm, bool of_lever) noexcept {
+  const double points = points_by_severity(
+      result, of_lever ? is_of_lever : [](ErrorKind kind) { return !is_of_lever(kind); });
+  const bool is_judged = norm != nullptr && result.score;
+  const double score = is_judged ? limb_distance(result, *norm, of_lever) / norm->limit : 0.0;
+  return std::min(1.0, std::max(points, kBestGrade - grade_by_score(score, kUsualPassGrade)) / kBestGrade);
 }
 
 double rounded_down(double grade) noexcept {
@@ -111,6 +120,21 @@ void grade_result(const Lesson& lesson, LessonResult& result, const Norm* norm) 
   if (!result.passed) result.grade = std::max(0.0, std::min(result.grade, lesson.pass_grade - kGradeStep));
 }
 
+std::string_view thing_to_mend(const Lesson& lesson, const LessonResult& result, const Norm* norm) {
+  if (const DrivingError* error = failing_error(lesson, result)) return error_advice(error->kind);
+  const auto is_milder = [](const DrivingError& a, const DrivingError& b) { return a.severity < b.severity; };
+  const auto costliest = std::max_element(result.errors.begin(), result.errors.end(), is_milder);
+  const bool has_error = costliest != result.errors.end() && costliest->severity > Severity::note;
+  const bool has_score = norm != nullptr && result.score;
+  const bool is_rough = has_score && *result.score > 1.0;
+  if (has_error && !is_rough) return error_advice(costliest->kind);
+  const RunFigure* worst = has_score ? worst_figure(result, *norm) : nullptr;
+  if (worst == nullptr) return {};
+  for (const FigureLine& line : figure_lines(result, norm))
+    if (line.figure == worst && (is_rough || line.is_worse)) return worst->advice;
+  return {};
+}
+
 double points_lost(const LessonResult& result) noexcept {
   double points = 0.0;
   for (const DrivingError& error : result.errors) points += error.points;
@@ -128,8 +152,12 @@ double run_error(const LessonResult& result) noexcept {
   return std::min(1.0, std::max(by_score, points_by_severity(result, [](ErrorKind) { return true; })) / kBestGrade);
 }
 
-double lever_error(const LessonResult& result) noexcept {
-  return std::min(1.0, points_by_severity(result, is_of_lever) / kBestGrade);
+double lever_error(const LessonResult& result, const Norm* norm) noexcept {
+  return limb_error(result, norm, true);
+}
+
+double pedal_error(const LessonResult& result, const Norm* norm) noexcept {
+  return limb_error(result, norm, false);
 }
 
 }  // namespace gearshift::lessons

@@ -1,6 +1,8 @@
 // Grades a lesson run by deducting points for driving errors.
 #pragma once
 
+#include <string_view>
+
 #include "app/lessons/assessment/driving_error.h"
 #include "app/lessons/assessment/lesson.h"
 #include "app/lessons/assessment/lesson_result.h"
@@ -22,6 +24,10 @@ double points_of(Severity severity) noexcept;
 // points and is not passed.
 void grade_result(const Lesson& lesson, LessonResult& result, const Norm* norm = nullptr);
 
+// The one thing to mend after a run: advice on the error or the figure that failed it; after a passed run, on the
+// costliest error, else on a figure beyond its norm. Empty if there is none. `norm`: null if there is none.
+std::string_view thing_to_mend(const Lesson& lesson, const LessonResult& result, const Norm* norm);
+
 // Points deducted for all errors [1], which may be more than the best grade.
 double points_lost(const LessonResult& result) noexcept;
 
@@ -33,7 +39,9 @@ bool is_graded(const LessonResult& result) noexcept;
 // with a pass grade of 6. If the lesson was not completed, it is 1.
 double run_error(const LessonResult& result) noexcept;
 
-// The same for the hand only: the points for errors of the lever, divided by 10, at most 1.
-double lever_error(const LessonResult& result) noexcept;
+// The same for the hand and for the feet only: the points for their errors, or an error that grows with the distance of
+// their figures from the norm's, if `norm` (may be null) judged the run. An unfinished run has only its points.
+double lever_error(const LessonResult& result, const Norm* norm) noexcept;
+double pedal_error(const LessonResult& result, const Norm* norm) noexcept;
 
 }  // namespace gearshift::lessons

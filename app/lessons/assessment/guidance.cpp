@@ -17,28 +17,29 @@ std::uint64_t draw(std::uint64_t& state) noexcept {
 }  // namespace
 
 GuidancePolicy::GuidancePolicy(std::uint64_t seed, const GuidanceConfig& config)
-    : config_(config), random_(seed), gain_(config.start) {}
+    : config_(config), random_(seed), lever_(config.start), pedals_(config.start) {}
 
 TrialPlan GuidancePolicy::next() {
   if (trial_ % guided_.size() == 0) shuffle();
-  const bool guided = guided_[trial_++ % guided_.size()] && gain_ >= config_.min_gain;
+  const bool helped = guided_[trial_++ % guided_.size()];
+  const auto given = [&](double gain) { return helped && gain >= config_.min_gain ? gain : 0.0; };
   HintStyle hints = HintStyle::prescriptive;
   if (skill_ >= config_.bandwidth_from) hints = HintStyle::bandwidth;
   if (skill_ >= config_.summary_from) hints = HintStyle::summary;
-  return {guided ? gain_ : 0.0, hints};
+  return {given(lever_), given(pedals_), hints};
 }
 
 TrialPlan GuidancePolicy::retention() const noexcept {
-  return {0.0, HintStyle::summary};
+  return {0.0, 0.0, HintStyle::summary};
 }
 
-void GuidancePolicy::learn(double error, double of_lever) noexcept {
-  if (!(error >= 0.0 && of_lever >= 0.0)) return;  // ignores NaN
-  error = std::min(error / config_.full_error, 1.0);
-  of_lever = std::min(of_lever / config_.full_error, 1.0);
+void GuidancePolicy::learn(double error, double of_lever, double of_pedals) noexcept {
+  if (!(error >= 0.0 && of_lever >= 0.0 && of_pedals >= 0.0)) return;  // ignores NaN
+  const auto part = [&](double of) { return std::min(of / config_.full_error, 1.0); };
   const double forgetting = config_.forgetting + skill_ * (config_.forgetting_skilled - config_.forgetting);
-  gain_ = std::clamp(forgetting * gain_ + config_.per_error * of_lever, 0.0, 1.0);
-  skill_ = config_.skill_memory * skill_ + (1.0 - config_.skill_memory) * (1.0 - error);
+  lever_ = std::clamp(forgetting * lever_ + config_.per_error * part(of_lever), 0.0, 1.0);
+  pedals_ = std::clamp(forgetting * pedals_ + config_.per_error * part(of_pedals), 0.0, 1.0);
+  skill_ = config_.skill_memory * skill_ + (1.0 - config_.skill_memory) * (1.0 - part(error));
 }
 
 // Fisher-Yates shuffle.

@@ -58,23 +58,32 @@ struct RunFigures {
 // A figure that norms compare. Less is better in every figure.
 struct RunFigure {
   std::optional<double> RunFigures::*member;  // null: LessonResult::slip_energy
+  bool of_lever;                              // what the hand did; else what the feet did
   const char* name;                           // in files of norms; of a member also its column, see RecordField
   std::string_view label;                     // for people
   std::string_view unit;
   double scale = 1.0;  // shown value per stored value
   int decimals = 0;
   double floor = 0.0;  // smaller values count as this one, because they are below what a person could tell
+  std::string_view advice{};
 };
 inline constexpr double kMinImpulse = 0.01;  // [N s]
 inline constexpr RunFigure kRunFigures[] = {
-    {nullptr, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0},
-    {&RunFigures::jerk_peak, "jerk_peak_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1},
-    {&RunFigures::rev_error, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
-     1.0 / haptics::kTurnPerMinute, 0, 1.0},
-    {&RunFigures::clutch_lead_error, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2, 0.01},
-    {&RunFigures::clutch_lag_error, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01},
-    {&RunFigures::path_efficiency, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0},
-    {&RunFigures::impulse, "impulse_n_s", "Push per shift", " N s", 1.0, 1, kMinImpulse},
+    {nullptr, false, "clutch_heat_j", "Clutch heat", " kJ", 1e-3, 2, 1.0,
+     "Use less throttle while the clutch slips, and let it up once the car rolls."},
+    {&RunFigures::jerk_peak, false, "jerk_peak_m_per_s3", "Largest jerk", " m/s³", 1.0, 0, 0.1,
+     "Let the clutch up more slowly through the bite point."},
+    {&RunFigures::rev_error, false, "rev_error_rad_per_s", "Revs off as the clutch takes hold", " rpm",
+     1.0 / haptics::kTurnPerMinute, 0, 1.0,
+     "Bring the engine to the speed of the new gear before the clutch takes hold."},
+    {&RunFigures::clutch_lead_error, false, "clutch_lead_error_s", "Lever after clutch down, off by", " s", 1.0, 2,
+     0.01, "Clutch down first, and then the lever, without a pause."},
+    {&RunFigures::clutch_lag_error, false, "clutch_lag_error_s", "Clutch up after gear, off by", " s", 1.0, 2, 0.01,
+     "Let the clutch up as soon as the gear is in, not before."},
+    {&RunFigures::path_efficiency, true, "path_efficiency", "Lever path / shortest", "", 1.0, 2, 1.0,
+     "Move the lever straight through neutral, and let its springs guide it."},
+    {&RunFigures::impulse, true, "impulse_n_s", "Push per shift", " N s", 1.0, 1, kMinImpulse,
+     "Push the lever lightly, and wait until the gear goes in."},
 };
 
 constexpr void each_field(FieldsOf<RunFigures> auto&& figures, auto&& visit) {
@@ -87,12 +96,16 @@ struct LessonResult {
   std::string task;
   LessonMode mode = LessonMode::follow_me;
   LessonEnd end = LessonEnd::running;
-  bool guided = false;      // guidance was active, so the run is not graded
-  bool is_complete = true;  // no samples were lost and forces were on; otherwise the run is not graded
-  bool had_forces = true;   // false if the run is incomplete because the lever had no forces
-  double begin = 0.0;       // [s] on the haptic loop's clock
-  double duration = 0.0;    // [s]
-  double grade = 0.0;       // [1] 0 to 10, see grade_result(); 0 if not finished
+  bool guided = false;       // one of the next two was not 0, so the run is not graded
+  double lever_help = 0.0;   // [1] strongest guidance of the lever, 0 to 1
+  double pedal_help = 0.0;   // [1] help with the pedals, 0 to 1, see GuidancePolicy
+  bool is_complete = true;   // no samples were lost and forces were on; otherwise the run is not graded
+  bool had_forces = true;    // false if the run is incomplete because the lever had no forces
+  std::string car;           // name of the car's file
+  double path_length = 0.0;  // [m] shortest path of the lever through the lesson's gears: tells gates apart
+  double begin = 0.0;        // [s] on the haptic loop's clock
+  double duration = 0.0;     // [s]
+  double grade = 0.0;        // [1] 0 to 10, see grade_result(); 0 if not finished
   bool passed = false;
   std::string why;  // one sentence on why the run was not passed
   std::vector<DrivingError> errors;
@@ -110,6 +123,10 @@ constexpr void each_field(FieldsOf<LessonResult> auto&& result, auto&& visit) {
   visit(RecordField{"mode"}, result.mode);
   visit(RecordField{"ended"}, result.end);
   visit(RecordField{"guided"}, result.guided);
+  visit(RecordField{"lever_help"}, result.lever_help);
+  visit(RecordField{"pedal_help"}, result.pedal_help);
+  visit(RecordField{"car"}, result.car);
+  visit(RecordField{"path_length_m"}, result.path_length);
   visit(RecordField{"complete"}, result.is_complete);
   visit(RecordField{"begin_s"}, result.begin);
   visit(RecordField{"duration_s"}, result.duration);

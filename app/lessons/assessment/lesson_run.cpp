@@ -144,7 +144,11 @@ LessonRun::LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const ha
   result.lesson = lesson.key;
   result.task = lesson.task;
   result.mode = config.mode;
-  result.guided = config.guidance > 0.0;
+  result.car = car.name;
+  result.path_length = lesson_path_length(lesson, gate);
+  result.lever_help = config.guidance;
+  result.pedal_help = config.pedal_help;
+  result.guided = config.guidance > 0.0 || config.pedal_help > 0.0;
   state_->view.steps = lesson.steps.size();
   state_->go_to(0);
   grade_result(lesson, result);
@@ -182,7 +186,8 @@ void LessonRun::State::begin(const vehicle::DriveSample& sample) {
 void LessonRun::State::measure(const vehicle::DriveSample& sample) {
   result.duration = sample.time() - result.begin;
   result.slip_energy = sample.car.slip_energy - start_slip;
-  result.guided = result.guided || sample.controls.guidance > 0.0;
+  result.lever_help = std::max(result.lever_help, sample.controls.guidance);
+  result.guided = result.guided || result.lever_help > 0.0;
   highest = std::max(highest, sample.car.distance);
 
   const std::optional<ShiftRecord> ended = meter.add(sample);

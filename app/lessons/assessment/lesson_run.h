@@ -21,6 +21,7 @@ struct LessonRunConfig {
   LessonMode mode = LessonMode::follow_me;
   double guidance = 0.0;  // [1] gain of the guidance force; 0: unguided
   HintStyle hints = HintStyle::prescriptive;
+  double pedal_help = 0.0;  // [1] help with the pedals; 0: none
 };
 
 // The prompts and feedback that the coach shows now.

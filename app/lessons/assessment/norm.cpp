@@ -78,6 +78,18 @@ std::optional<double> exp_of(std::optional<double> logarithm) noexcept {
   return logarithm ? std::optional(std::exp(*logarithm)) : std::nullopt;
 }
 
+// Root mean square of the deviations of the figures that count; 0 if there are none.
+double distance_over(const LessonResult& result, const Norm& norm, auto counts) noexcept {
+  Mean squares;
+  for (const RunFigure& figure : kRunFigures) {
+    const std::optional<FigureNorm>& values = values_of(norm, figure);
+    if (!values || !counts(figure)) continue;
+    const double by = deviation(result, figure, *values);
+    squares.add(by * by);
+  }
+  return std::sqrt(squares.value().value_or(0.0));
+}
+
 }  // namespace
 
 std::vector<Norm> read_norms(const std::filesystem::path& file) {
@@ -146,14 +158,11 @@ double figure_logarithm(const RunFigure& figure, double value) noexcept {
 }
 
 double distance(const LessonResult& result, const Norm& norm) noexcept {
-  Mean squares;
-  for (const RunFigure& figure : kRunFigures) {
-    const std::optional<FigureNorm>& values = values_of(norm, figure);
-    if (!values) continue;
-    const double by = deviation(result, figure, *values);
-    squares.add(by * by);
-  }
-  return std::sqrt(squares.value().value_or(0.0));
+  return distance_over(result, norm, [](const RunFigure&) { return true; });
+}
+
+double limb_distance(const LessonResult& result, const Norm& norm, bool of_lever) noexcept {
+  return distance_over(result, norm, [of_lever](const RunFigure& figure) { return figure.of_lever == of_lever; });
 }
 
 std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm) {
@@ -173,7 +182,7 @@ std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* nor
   return lines;
 }
 
-std::string worst_figure_sentence(const LessonResult& result, const Norm& norm) {
+const RunFigure* worst_figure(const LessonResult& result, const Norm& norm) noexcept {
   const RunFigure* worst = nullptr;
   double most = -1.0;
   for (const RunFigure& figure : kRunFigures) {
@@ -182,6 +191,11 @@ std::string worst_figure_sentence(const LessonResult& result, const Norm& norm) 
     const double by = deviation(result, figure, *values);
     if (by > most) worst = &figure, most = by;
   }
+  return worst;
+}
+
+std::string worst_figure_sentence(const LessonResult& result, const Norm& norm) {
+  const RunFigure* worst = worst_figure(result, norm);
   if (worst == nullptr) return "You did not use the clutch as practised drivers do.";
   return fmt::format("Not yet as smooth as practised drivers. Farthest off: {}, {} (norm: up to {}).", worst->label,
                      format_figure(*worst, *figure_of(result, *worst)),

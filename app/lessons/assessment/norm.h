@@ -56,6 +56,8 @@ std::optional<double> figure_of(const LessonResult& result, const RunFigure& fig
 // A better figure counts as 0, a missing one as kMaxDeviation. Only practised drivers make a norm, so it needs no
 // model of unskilled ones (one-class classification: Tax, Duin. Support Vector Data Description. 2004).
 double distance(const LessonResult& result, const Norm& norm) noexcept;
+// The same over the figures of the hand, or of the feet, only.
+double limb_distance(const LessonResult& result, const Norm& norm, bool of_lever) noexcept;
 inline constexpr double kMaxDeviation = 5.0;  // [1] one slip must not outweigh all else (engineering value)
 
 // A figure and its norm, also as text.
@@ -70,7 +72,8 @@ struct FigureLine {
 };
 std::vector<FigureLine> figure_lines(const LessonResult& result, const Norm* norm);
 
-// One sentence about the figure that is farthest from its norm.
+// The figure that is farthest from its norm; null if the run has none of the norm's figures.
+const RunFigure* worst_figure(const LessonResult& result, const Norm& norm) noexcept;
 std::string worst_figure_sentence(const LessonResult& result, const Norm& norm);
 
 // Says on every page with such figures where the norm is from.

@@ -49,6 +49,71 @@ std::string weak_lesson_text(const Lesson& lesson, const RecentResults& form) {
                      lesson.title, form.failed, form.runs, form.grade);
 }
 
+constexpr std::int64_t kDay = 24 * 3600;  // [s]
+
+bool is_retention_test(const GradedTrial& trial) noexcept {
+  return trial.pause >= static_cast<double>(kTestDue);
+}
+
+// True if the trial had another car or gate than the lesson's first one. Old runs do not name theirs.
+bool is_transfer(std::span<const GradedTrial> past, const GradedTrial& trial) {
+  const auto is_known = [&](const GradedTrial& t) { return t.lesson == trial.lesson && !t.car.empty(); };
+  const auto first = std::find_if(past.begin(), past.end(), is_known);
+  return first != past.end() && is_known(trial) && (trial.car != first->car || trial.path_length != first->path_length);
+}
+
+// The day's test is done: a retention or transfer test was driven on this day (UTC).
+bool was_tested_on(std::span<const GradedTrial> past, std::int64_t day) {
+  return std::any_of(past.begin(), past.end(), [&](const GradedTrial& trial) {
+    return trial.begun && *trial.begun / kDay == day && (is_retention_test(trial) || is_transfer(past, trial));
+  });
+}
+
+// Time since the lesson was last driven [s]; 0 if it is not confirmed or the time is unknown.
+std::int64_t idle_time(std::span<const GradedTrial> past, const Lesson& lesson, std::int64_t now) {
+  if (!was_confirmed(past, lesson.key, &GradedTrial::lesson)) return 0;
+  const auto is_lesson = [&](const GradedTrial& trial) { return trial.lesson == lesson.key; };
+  const auto last = std::find_if(past.rbegin(), past.rend(), is_lesson);
+  return last != past.rend() && last->begun ? now - *last->begun : 0;
+}
+
+std::optional<Suggestion> due_retention(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
+                                        std::int64_t now) {
+  const Lesson* longest = nullptr;
+  std::int64_t idle = kTestDue - 1;
+  for (const Lesson& lesson : lessons)
+    if (const std::int64_t time = idle_time(past, lesson, now); time > idle) longest = &lesson, idle = time;
+  if (longest == nullptr) return std::nullopt;
+  return Suggestion{longest->key, fmt::format("You last drove {} {} days ago. Drive it once without help, as a test of "
+                                              "what you remember.",
+                                              longest->title, idle / kDay)};
+}
+
+// A lesson whose retention test was passed, always with the same car and gate.
+std::optional<Suggestion> due_transfer(std::span<const Lesson> lessons, std::span<const GradedTrial> past) {
+  for (const Lesson& lesson : lessons) {
+    bool has_kept = false, has_transfer = false;
+    for (const GradedTrial& trial : past) {
+      if (trial.lesson != lesson.key) continue;
+      has_kept = has_kept || (trial.passed && is_retention_test(trial));
+      has_transfer = has_transfer || is_transfer(past, trial);
+    }
+    if (has_kept && !has_transfer)
+      return Suggestion{lesson.key,
+                        fmt::format("You passed {} after a long break. Drive it with another car or gate, as "
+                                    "a test of whether you can do it there, too.",
+                                    lesson.title)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Suggestion> due_test(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
+                                   std::int64_t now) {
+  if (was_tested_on(past, now / kDay)) return std::nullopt;
+  if (std::optional<Suggestion> retention = due_retention(lessons, past, now)) return retention;
+  return due_transfer(lessons, past);
+}
+
 }  // namespace
 
 bool is_weak(const RecentResults& form) noexcept {
@@ -109,8 +174,10 @@ std::string tries_text(const Tries& tries) {
 }
 
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
-                                         std::span<const UngradedTrial> others) {
+                                         std::span<const UngradedTrial> others, std::optional<std::int64_t> now) {
   if (lessons.empty()) return std::nullopt;
+  if (now)
+    if (std::optional<Suggestion> test = due_test(lessons, past, *now)) return test;
   if (const Lesson* lesson = find_lesson(lessons, [&](const Lesson& l) { return !was_passed(past, l.key); }))
     return Suggestion{lesson->key, never_passed_text(*lesson, past, others)};
   if (const Lesson* lesson = weakest(lessons, past, is_weak))

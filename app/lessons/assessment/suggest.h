@@ -21,6 +21,9 @@ struct GradedTrial {
   std::int64_t run = 0;    // number in the history
   std::string begun_at{};  // ISO 8601, UTC
   double pause = 0.0;      // [s] break of at least kRetentionPause since the lesson's previous run; 0: none
+  std::optional<std::int64_t> begun{};  // [s] since 1970, of begun_at
+  std::string car{};
+  double path_length = 0.0;  // [m] see LessonResult
 };
 
 // A finished run without a grade.
@@ -89,9 +92,14 @@ struct Tries {
 Tries count_tries(std::span<const GradedTrial> past, std::span<const UngradedTrial> others, std::string_view task);
 std::string tries_text(const Tries& tries);  // those that were not passed: "2 failed, 3 guided"; may be empty
 
-// Suggests, in this order: the first lesson that was never passed, the weakest of those with is_weak(), the first
-// not confirmed, the weakest. `lessons` is in teaching order; if it is empty, the result is empty, too.
+// [s] A confirmed lesson not driven for so long is due for a retention test; once that is passed, for a transfer test,
+// with another car or gate. The retention interval of studies on guidance is a day to two weeks (guidance.h).
+inline constexpr std::int64_t kTestDue = std::int64_t{7} * 24 * 3600;
+
+// Suggests, in this order: a due test, at most one a day; the first lesson that was never passed, the weakest of those
+// with is_weak(), the first not confirmed, the weakest. `lessons` is in teaching order; if it is empty, the result is
+// empty, too. `now`: [s] since 1970; empty: no test is due.
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past,
-                                         std::span<const UngradedTrial> others);
+                                         std::span<const UngradedTrial> others, std::optional<std::int64_t> now = {});
 
 }  // namespace gearshift::lessons

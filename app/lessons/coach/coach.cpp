@@ -172,7 +172,7 @@ void Coach::dismiss_lesson() {
   view.lesson = view.title = view.goal = view.fail_conditions = "";
   view.time_limit = 0.0;
   state.show_trial();
-  view.guidance = 0.0;
+  view.guidance = view.pedal_help = 0.0;
   view.retention = false;
 }
 
@@ -237,6 +237,10 @@ std::vector<std::string> Coach::take_unreferenced_recordings() {
 
 double Coach::guidance() const noexcept {
   return state_->is_driving() ? state_->view.guidance : 0.0;
+}
+
+double Coach::pedal_help() const noexcept {
+  return state_->is_driving() ? state_->view.pedal_help : 0.0;
 }
 
 int Coach::guided_gear() const noexcept {
@@ -312,7 +316,8 @@ void Coach::State::suggest() {
     view.next_why = "Chosen by the instructor.";
     return;
   }
-  const Suggestion next = suggest_lesson(config.lessons, past, ungraded_trials(memory.runs())).value_or(Suggestion{});
+  const Suggestion next =
+      suggest_lesson(config.lessons, past, ungraded_trials(memory.runs()), config.now()).value_or(Suggestion{});
   view.next = next.lesson;
   view.next_why = next.why;
 }
@@ -344,14 +349,15 @@ void Coach::State::show_trial() {
   view.now = run ? &run->view() : &no_prompts;
   view.result = run ? &run->result() : &no_result;
   view.norm = run ? run->norm() : nullptr;
-  view.mastery = {};
+  view.mastery = view.mend = {};
   view.run = 0;
   has_saved_run = false;
 }
 
 void Coach::State::plan() {
-  const PlannedTrial planned = plan_trial(memory.learner(), lesson->key, memory.runs(), config.now());
+  const PlannedTrial planned = plan_trial(memory.learner(), *lesson, memory.runs(), config.now());
   view.guidance = view.help_wanted ? planned.plan.guidance : 0.0;
+  view.pedal_help = view.help_wanted ? planned.plan.pedal_help : 0.0;
   view.hints = planned.plan.hints;
   view.retention = planned.retention;
 }
@@ -369,7 +375,8 @@ void Coach::State::show_mode() {
 void Coach::State::begin(const vehicle::CarSpec& car, const haptics::Gate& gate) {
   show_mode();
   plan();
-  run = std::make_unique<LessonRun>(*lesson, car, gate, LessonRunConfig{view.mode, view.guidance, view.hints});
+  run = std::make_unique<LessonRun>(*lesson, car, gate,
+                                    LessonRunConfig{view.mode, view.guidance, view.hints, view.pedal_help});
   cycle.reset();
   forces = {};
   view.phase = LessonPhase::driving;
@@ -427,6 +434,7 @@ void Coach::State::finish_trial() {
   if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
   refresh_view();
   show_mode();
+  view.mend = thing_to_mend(*lesson, result, run->norm());
   const Mastery mastery = mastery_of(past, result.lesson);
   if (result.passed || (finished && mastery == Mastery::mastered)) view.mastery = mastery_sentence(mastery);
 }

@@ -91,6 +91,7 @@ class Coach {
 
   // The guidance gain and the guided gear for DriverControls. While no lesson is running: 0 and kNeutralGear.
   double guidance() const noexcept;
+  double pedal_help() const noexcept;  // 0 while no lesson is running
   int guided_gear() const noexcept;
 
   // For the instructor. These functions throw std::invalid_argument for a lesson that is not in the config, a run of a

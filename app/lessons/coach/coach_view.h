@@ -50,7 +50,8 @@ struct CoachView {
   std::string fail_conditions;      // sentence that names the errors that fail the lesson; may be empty
   LessonMode mode = LessonMode::follow_me;
   bool help_wanted = true;  // chosen by the user; false: no trial is guided
-  double guidance = 0.0;    // [1] guidance gain of this trial; 0: the trial is graded
+  double guidance = 0.0;    // [1] gain of the lever's guidance in this trial
+  double pedal_help = 0.0;  // [1] gain of the help for the feet; if both are 0, the trial is graded
   HintStyle hints = HintStyle::prescriptive;
   bool retention = false;  // first trial after a day: unguided, without hints
   // The trial's prompts and its result so far; empty in phases none and offered. Never null in Coach::view(). They
@@ -60,6 +61,7 @@ struct CoachView {
   const Norm* norm = nullptr;  // by which the trial is judged; null: none
   // Told at the end of a graded trial: "Passed once. Pass it again tomorrow or after another lesson."; may be empty
   std::string_view mastery;
+  std::string_view mend;    // the one thing to mend, told at the end of a trial; may be empty
   double time_limit = 0.0;  // [s] time limit of the lesson; 0: no lesson
   std::int64_t run = 0;     // number of the run in the history; 0: not saved
 

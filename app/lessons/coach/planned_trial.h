@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/lessons/assessment/guidance.h"
+#include "app/lessons/assessment/lesson.h"
 #include "app/lessons/history/history.h"
 
 namespace gearshift::lessons {
@@ -17,7 +18,6 @@ struct PlannedTrial {
 
 // Feeds the completed runs of the lesson, including retention tests, to a GuidancePolicy. Skips runs that ended early.
 // The same runs always give the same plan. `runs`: all runs of this learner, oldest first. `now`: [s] since 1970.
-PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
-                        std::int64_t now);
+PlannedTrial plan_trial(std::string_view learner, const Lesson& lesson, std::span<const RunRow> runs, std::int64_t now);
 
 }  // namespace gearshift::lessons

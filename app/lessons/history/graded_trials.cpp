@@ -24,7 +24,8 @@ std::vector<GradedTrial> graded_trials(std::span<const RunRow> runs) {
     const double pause = retention_pause(last[result.lesson], begun).value_or(0.0);
     last[result.lesson] = begun;
     if (is_graded(result))
-      trials.push_back({result.lesson, result.task, result.grade, result.passed, run.id, run.begun_at, pause});
+      trials.push_back({result.lesson, result.task, result.grade, result.passed, run.id, run.begun_at, pause, begun,
+                        result.car, result.path_length});
   }
   return trials;
 }

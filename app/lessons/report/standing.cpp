@@ -75,8 +75,23 @@ std::string error_advice_for(const LearnerHistory& history, std::string_view tas
   return fmt::format("{}: {}", title_from_key(to_string(kind)), error_advice(kind));
 }
 
-std::string advice_for(const LearnerHistory& history, Standing standing, const Tries& tries, std::string_view task) {
+// The advice on the figure that failed the task's latest run; empty if something else did, or if it was passed.
+std::string figure_advice_for(const LearnerHistory& history, std::span<const Lesson> lessons, std::string_view task) {
+  const auto last = std::find_if(history.runs.rbegin(), history.runs.rend(),
+                                 [&](const RunRow& run) { return run.result.task == task && is_graded(run.result); });
+  if (last == history.runs.rend() || last->result.passed || last->result.score.value_or(0.0) <= 1.0) return {};
+  const auto lesson =
+      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == last->result.lesson; });
+  const Norm* norm = lesson != lessons.end() ? norm_of(*lesson, last->result.mode) : nullptr;
+  if (norm == nullptr) return {};
+  const std::string_view mend = thing_to_mend(*lesson, last->result, norm);
+  return mend.empty() ? std::string() : fmt::format("To mend: {}", mend);
+}
+
+std::string advice_for(const LearnerHistory& history, std::span<const Lesson> lessons, Standing standing,
+                       const Tries& tries, std::string_view task) {
   if (standing == Standing::not_tried || standing == Standing::can) return {};
+  if (std::string advice = figure_advice_for(history, lessons, task); !advice.empty()) return advice;
   if (std::string advice = error_advice_for(history, task); !advice.empty()) return advice;
   if (tries.passed + tries.failed == 0) return "Drive it to the end once without guidance.";
   return standing == Standing::nearly ? "Drive it again on another day." : "Drive it again.";
@@ -102,8 +117,8 @@ std::vector<TaskStanding> task_standings(const LearnerHistory& history, std::spa
   for (const std::string& task : tasks) {
     const Tries tries = count_tries(past, others, task);
     const Standing standing = standing_of(past, tries, task);
-    standings.push_back(
-        {task, standing, sentence_of(standing, past, tries, task), advice_for(history, standing, tries, task)});
+    standings.push_back({task, standing, sentence_of(standing, past, tries, task),
+                         advice_for(history, lessons, standing, tries, task)});
   }
   return standings;
 }
@@ -112,7 +127,8 @@ NextLesson next_lesson(const LearnerHistory& history, std::span<const Lesson> le
   if (is_lesson(lessons, history.learner.next_lesson))
     return {history.learner.next_lesson, "Chosen by the instructor.", true};
   const Suggestion next =
-      suggest_lesson(lessons, graded_trials(history.runs), ungraded_trials(history.runs)).value_or(Suggestion{});
+      suggest_lesson(lessons, graded_trials(history.runs), ungraded_trials(history.runs), history.now)
+          .value_or(Suggestion{});
   return {next.lesson, next.why};
 }
 

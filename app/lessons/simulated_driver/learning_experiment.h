@@ -24,6 +24,8 @@ struct IntervalEstimate {
 // Interval of roc_auc() after R. G. Newcombe. Confidence intervals for an effect size measure based on the Mann-Whitney
 // statistic. Part 2. 2006 (method 5). Unlike DeLong's and the bootstrap, it has a width where the classes do not overlap.
 IntervalEstimate auc_estimate(std::span<const double> skilled, std::span<const double> unskilled) noexcept;
+// Mean of `with` minus `without`, paired by index, with Student's interval; both have the same size, at least 2.
+IntervalEstimate paired_difference(std::span<const double> with, std::span<const double> without) noexcept;
 // `successes` of `trials` as a fraction [1], with Wilson's interval. trials > 0.
 IntervalEstimate fraction_estimate(int successes, int trials) noexcept;
 
@@ -40,7 +42,7 @@ struct ErrorSeparation {
 };
 ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed);
 
-// After each trial, with guidance g and run_error() of grade.h, the skill error e becomes
+// After each trial, with help g, the mean of both limbs' gains, and run_error() of grade.h, the skill error e becomes
 //     e (1 - rate (1 - guided_loss g) (1 - failed_loss run_error)).
 //
 // Learning is exponential in the number of trials (Heathcote, Brown, Mewhort 2000). A guided trial teaches less than an
@@ -55,13 +57,15 @@ struct LearningModel {
   double min_start_error = 0.7;  // [1] initial skill errors are uniform from this value to 1
 };
 
-enum class Practice { unguided, guided_always, faded };  // guided_always: full guidance; faded: by GuidancePolicy
+// always: full help for both limbs. by_limb: by GuidancePolicy. both_limbs: by GuidancePolicy, but help for both limbs
+// after errors of either.
+enum class Practice { unguided, always, both_limbs, by_limb };
 
 struct PracticeOutcome {
-  std::vector<double> error;     // [1] mean skill error before the first trial and after each one
-  double retention_grade = 0.0;  // [1] mean grade of the final unguided tests
-  double guided_fraction = 0.0;  // [1] fraction of guided trials
-  double guided_early = 0.0;     // [1] fraction of guided trials in the first half
+  std::vector<double> error;       // [1] mean skill error before the first trial and after each one
+  std::vector<double> test_error;  // [1] of each learner: mean run_error() of the final unguided tests
+  double guided_fraction = 0.0;    // [1] fraction of trials with help
+  double guided_early = 0.0;       // [1] the same in the first half
 };
 
 // Each driver drives `trials` trials of the lesson, then two unguided tests. The tests do not count for learning.

@@ -18,6 +18,7 @@ constexpr double kBiteTorque = 5.0;  // [N m] clutch torque above which a slippi
 
 struct Zone {  // bite zone in fractions of the pedal travel [1]; not drawn if empty (`from` >= `to`)
   double from = 0.0, to = 0.0;
+  double mark = 0.0;  // [1] 0 to 1, strength of its outline
 };
 
 void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Zone zone = {}) {
@@ -33,7 +34,11 @@ void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Z
   const auto fraction = static_cast<float>(std::clamp(pressed, 0.0, 1.0));
   if (fraction > 0.0f) list.AddRectFilled(from, {from.x + fraction * (to.x - from.x), to.y}, colour, 2.0f);
   const auto at = [&](double part) { return from.x + static_cast<float>(part) * (to.x - from.x); };
-  if (zone.to > zone.from) list.AddRectFilled({at(zone.from), from.y}, {at(zone.to), to.y}, ink::kBiteZone);
+  if (zone.to <= zone.from) return;
+  list.AddRectFilled({at(zone.from), from.y}, {at(zone.to), to.y}, ink::kBiteZone);
+  if (zone.mark > 0.0)
+    list.AddRect({at(zone.from), from.y - 2.0f}, {at(zone.to), to.y + 2.0f},
+                 engine::with_alpha(ink::kBiteMark, static_cast<float>(zone.mark)), 0.0f, 0, 2.0f);
 }
 
 void draw_word(const std::string& text, ImU32 colour) {
@@ -51,10 +56,10 @@ double slope_percent(const vehicle::VehicleState& car) {
   return round_as_printed(100.0 * std::tan(car.slope), 0);
 }
 
-void draw_car_strip(const vehicle::VehicleState& car, int gear) {
+void draw_car_strip(const vehicle::VehicleState& car, int gear, double pedal_help) {
   const bool bites = !car.clutch_locked && std::abs(car.clutch_torque) > kBiteTorque;
   pedal(bites ? "clutch biting" : "clutch", car.pedals.clutch, bites ? ink::kWarn : ink::kAccent, true,
-        {car.clutch_closed, car.clutch_bite});
+        {car.clutch_closed, car.clutch_bite, pedal_help});
   pedal("brake", car.pedals.brake, ink::kBad);
   pedal("throttle", car.pedals.throttle, ink::kGood);
   if (car.stalled) {

@@ -15,6 +15,6 @@ double slope_percent(const vehicle::VehicleState& car);      // [%] rounded to t
 
 // Draws pedals, speeds and active warnings from left to right, wrapped if necessary. The clutch bar changes colour
 // while the clutch bites, i.e. slips and transmits torque.
-void draw_car_strip(const vehicle::VehicleState& car, int gear);
+void draw_car_strip(const vehicle::VehicleState& car, int gear, double pedal_help);
 
 }  // namespace gearshift::ui

@@ -40,9 +40,9 @@ class BarCursor {
 };
 
 // `zone_from`, `zone_to` [1]: the bite zone in fractions of the pedal travel; not drawn if empty (`zone_from` >=
-// `zone_to`).
+// `zone_to`). `mark` [1]: strength of its outline.
 void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour, double zone_from = 0.0,
-           double zone_to = 0.0) {
+           double zone_to = 0.0, double mark = 0.0) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const float foot = low.y + size.y - engine::ui_font_size(font);
@@ -52,6 +52,9 @@ void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colo
   const auto height_of = [&](double at) { return foot - (foot - low.y) * static_cast<float>(at); };
   if (zone_to > zone_from)
     list.AddRectFilled({low.x, height_of(zone_to)}, {low.x + size.x, height_of(zone_from)}, ink::kBiteZone);
+  if (zone_to > zone_from && mark > 0.0)
+    list.AddRect({low.x - 2.0f, height_of(zone_to)}, {low.x + size.x + 2.0f, height_of(zone_from)},
+                 engine::with_alpha(ink::kBiteMark, static_cast<float>(mark)), 0.0f, 0, 2.0f);
   const float width = font->CalcTextSizeA(engine::ui_font_size(font), 1e9f, 0.0f, name).x;
   list.AddText(font, engine::ui_font_size(font), {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
@@ -90,7 +93,8 @@ void draw_car(const BarCursor& parts, const PanelInput& input) {
   list.AddText({at, top + line}, ink::kText, format_speed(car).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
-  pedal("C", car.pedals.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);
+  pedal("C", car.pedals.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite,
+        input.coach.pedal_help);
   pedal("B", car.pedals.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
   pedal("T", car.pedals.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
 }

@@ -64,7 +64,7 @@ bool draw_switch(Controls& controls, const char* name, const char* first, const 
 
 constexpr const char* kFollowMe = "Follow me";
 constexpr const char* kByYourself = "Do it yourself";
-constexpr const char* kGuideMyHand = "Guide my hand";
+constexpr const char* kGuideMyHand = "Help me";
 
 const char* describe_attempt(const lessons::CoachView& coach) {
   const bool prompted = coach.mode == lessons::LessonMode::follow_me;
@@ -76,6 +76,11 @@ const char* describe_attempt(const lessons::CoachView& coach) {
 }
 
 // Draws a word on a coloured background, on the line of the previous item if it fits there.
+const char* help_badge(const lessons::CoachView& coach) {
+  if (coach.pedal_help == 0.0) return "lever guided, not graded";
+  return coach.guidance > 0.0 ? "lever and pedals helped, not graded" : "pedals helped, not graded";
+}
+
 void draw_badge(const char* text, ImU32 colour) {
   const engine::WithFont small(engine::UiFont::small);
   const float em = engine::ui_em(), width = width_of(text) + 0.8f * em;
@@ -218,7 +223,7 @@ void LessonCard::draw_controls_and_car(const FrameContext& now) {
     if (ImGui::GetContentRegionAvail().x < width_of(mouse, engine::UiFont::small)) ImGui::NewLine();
     put(mouse, now.input.mouse_moves_lever ? ink::kAccent : ink::kSoft, engine::UiFont::small);
   }
-  if (!now.panel_shown) draw_car_strip(now.input.car, now.input.now.gear);
+  if (!now.panel_shown) draw_car_strip(now.input.car, now.input.now.gear, now.coach.pedal_help);
 }
 
 void LessonCard::draw_offered(FrameContext& now) {
@@ -264,7 +269,7 @@ void LessonCard::draw_driving(FrameContext& now) {
     put(words, ink::kAccent, engine::UiFont::small);
   }
   draw_time_left(coach);
-  if (coach.guidance > 0.0) draw_badge("guided, not graded", ink::kAccent);
+  if (coach.guidance > 0.0 || coach.pedal_help > 0.0) draw_badge(help_badge(coach), ink::kAccent);
   if (coach.retention) draw_badge("test: no guidance", ink::kText);
   if (small_button(now.controls, "lesson_leave", "Leave")) now.out.push_back(LeaveLesson{});
   draw_progress(coach.now->step, coach.now->steps);

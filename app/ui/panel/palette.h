@@ -16,11 +16,12 @@ inline constexpr ImU32 kPlate = IM_COL32(38, 45, 54, 255);
 inline constexpr ImU32 kFree = IM_COL32(11, 13, 17, 255);
 inline constexpr ImU32 kWall = IM_COL32(148, 160, 174, 255);
 inline constexpr ImU32 kBuffer = IM_COL32(238, 170, 66, 46);
-inline constexpr ImU32 kEngine = IM_COL32(240, 214, 110, 255);  // engine speed
-inline constexpr ImU32 kShaft = IM_COL32(176, 188, 202, 255);   // speed of the gearbox input shaft
-inline constexpr ImU32 kIdeal = IM_COL32(170, 222, 92, 255);    // shortest path of a shift
-inline constexpr ImU32 kDriven = IM_COL32(240, 122, 184, 255);  // driven path of a shift
-inline constexpr ImU32 kBiteZone = IM_COL32(240, 190, 80, 90);  // bite zone, drawn over the clutch pedal's bar
-inline constexpr ImU32 kPrimary = IM_COL32(46, 120, 166, 255);  // the primary button
+inline constexpr ImU32 kEngine = IM_COL32(240, 214, 110, 255);    // engine speed
+inline constexpr ImU32 kShaft = IM_COL32(176, 188, 202, 255);     // speed of the gearbox input shaft
+inline constexpr ImU32 kIdeal = IM_COL32(170, 222, 92, 255);      // shortest path of a shift
+inline constexpr ImU32 kDriven = IM_COL32(240, 122, 184, 255);    // driven path of a shift
+inline constexpr ImU32 kBiteMark = IM_COL32(255, 214, 110, 255);  // its outline, while the learner gets help
+inline constexpr ImU32 kBiteZone = IM_COL32(240, 190, 80, 90);    // bite zone, drawn over the clutch pedal's bar
+inline constexpr ImU32 kPrimary = IM_COL32(46, 120, 166, 255);    // the primary button
 
 }  // namespace gearshift::ui::ink

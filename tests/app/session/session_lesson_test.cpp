@@ -55,6 +55,20 @@ struct LessonRig {
   }
 };
 
+// Saves trials that failed by errors of the hand.
+void fail_by_hand(const fs::path& file, const std::string& learner, const std::string& lesson, int trials) {
+  History history(file);
+  const std::int64_t session = history.begin_session(history.find_or_add_learner(learner), "test");
+  LessonResult result;
+  result.lesson = result.task = lesson;
+  result.errors = {make_driving_error(ErrorKind::wrong_gear, Severity::very_severe, 1.0, 4.0)};
+  for (int i = 0; i < trials; ++i) {
+    const std::int64_t run = history.begin_run(session, result, "");
+    result.end = LessonEnd::done;
+    history.end_run(run, result);
+  }
+}
+
 void go(Session& session, double seconds) {
   for (double time = 0.0; time < seconds; time += kLessonFrame) {
     session.advance(kLessonFrame);
@@ -355,11 +369,13 @@ TEST_CASE("in a guided trial the lever guides and no grade is given; without hel
     CHECK(session.coach().guidance() == 0.0);
     unguided.learner += "a";
   }
-  // The lesson starts in first gear. The first step that names a gear names second, so the guidance leads to second.
+  // A new learner, because Ada's trials would affect the guidance, whose hand failed four trials. The lesson starts in
+  // first gear. The first step that names a gear names second, so the guidance leads to second.
   // Two of the first four trials are guided.
   SessionChoice person = rig.choice("up_through_the_gears", "grip");
   person.help = true;
-  person.learner = "Bo";  // a new learner, because Ada's trials would affect the guidance
+  person.learner = "Bo";
+  fail_by_hand(rig.history, person.learner, person.lesson, 4);
   for (int trial = 0; trial < 4; ++trial) {
     Session driven(person);
     const CoachView& coach = drive_as_person(driven);

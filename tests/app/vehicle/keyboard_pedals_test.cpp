@@ -71,6 +71,20 @@ TEST_CASE("at 10, 30 and 144 frames per second the pedal follows the same path, 
   }
 }
 
+TEST_CASE("with full help the released clutch slips 2.5 times as long, and is as fast as ever elsewhere") {
+  const auto time_between = [](double slow, double from, double to) {
+    KeyboardPedals feet(kPace, kClutch);
+    feet.place({.clutch = from});
+    double time = 0.0;
+    while (feet.move({.slow_clutch = slow}, 1e-4, 0.0, false).clutch > to) time += 1e-4;
+    return time;
+  };
+  const double slip = time_between(0.0, kClutch.bite, kClutch.closed);
+  CHECK(time_between(1.0, kClutch.bite, kClutch.closed) == doctest::Approx(2.5 * slip).epsilon(1e-3));
+  CHECK(time_between(0.5, kClutch.bite, kClutch.closed) == doctest::Approx(1.75 * slip).epsilon(1e-3));
+  CHECK(time_between(1.0, 1.0, kClutch.bite) == doctest::Approx(time_between(0.0, 1.0, kClutch.bite)));
+}
+
 TEST_CASE("light throttle takes a free engine to at most 1700 rpm; under load it is 0.2") {
   const auto throttle = [](double speed, bool coupled) {
     return KeyboardPedals(kPace, kClutch).move({.throttle_light = true}, 1.0, speed, coupled).throttle;

@@ -41,15 +41,19 @@ std::vector<BenchRow> fault_rows(const std::vector<lessons::LessonDriveConfig>& 
 }
 
 std::vector<BenchRow> practice_rows(const lessons::LessonDriveConfig& drive, bool quick) {
-  const int learners = quick ? 1 : 24, trials = quick ? 2 : 24;
+  const int learners = quick ? 2 : 24, trials = quick ? 2 : 24;
   std::vector<BenchRow> rows;
   for (const double failed_loss : {0.5, 0.0}) {
     lessons::LearningModel model;
     model.failed_loss = failed_loss;
-    for (const auto& [practice, name] : {std::pair{lessons::Practice::unguided, "never guided"},
-                                         std::pair{lessons::Practice::guided_always, "always guided"},
-                                         std::pair{lessons::Practice::faded, "guided by the policy"}}) {
+    std::vector<double> unguided;  // the test error of each learner
+    for (const auto& [practice, name] :
+         {std::pair{lessons::Practice::unguided, "never helped"}, std::pair{lessons::Practice::always, "always helped"},
+          std::pair{lessons::Practice::both_limbs, "helped after errors of any limb"},
+          std::pair{lessons::Practice::by_limb, "helped by the policy"}}) {
       const lessons::PracticeOutcome outcome = lessons::practise(drive, practice, model, learners, trials, 1);
+      if (practice == lessons::Practice::unguided) unguided = outcome.test_error;
+      const lessons::IntervalEstimate more = lessons::paired_difference(outcome.test_error, unguided);
       const std::string what = failed_loss > 0.0 ? "" : ", learning as much from failures";
       rows.push_back({"learning",
                       drive.lesson.key + ", " + name + what,
@@ -60,9 +64,11 @@ std::vector<BenchRow> practice_rows(const lessons::LessonDriveConfig& drive, boo
                       std::to_string(learners) + " simulated learners, " + std::to_string(trials) +
                           " trials each, assumed learning model",
                       true,
-                      {{"retention grade", outcome.retention_grade, ""},
-                       {"guided", 100.0 * outcome.guided_fraction, "%"},
-                       {"guided trials in the first half", 100.0 * outcome.guided_early, "%"}}});
+                      {{"error in the final tests, beyond that of never helped", more.value, ""},
+                       {"95 % interval from", more.low, ""},
+                       {"to", more.high, ""},
+                       {"helped", 100.0 * outcome.guided_fraction, "%"},
+                       {"helped trials in the first half", 100.0 * outcome.guided_early, "%"}}});
     }
   }
   return rows;

@@ -196,3 +196,23 @@ TEST_CASE("dogs rattle |difference| * teeth / (2 pi) times per second, louder wi
   apart.grinding = false;
   CHECK(silent(cabin, apart));
 }
+
+TEST_CASE("with help, a tick tells the clutch's bite point each time the pedal passes it; without, none does") {
+  for (const double help : {0.0, 0.4, 1.0}) {
+    CAPTURE(help);
+    Cabin cabin({.engine = false});
+    cabin.sound.set_bite_tick(help);
+    cabin.car.clutch_bite = 0.75;
+    const auto is_heard = [&](double pedal) {
+      cabin.car.pedals.clutch = pedal;
+      return peak(doubles(cabin.run(0.2))) > 0.0;
+    };
+    CHECK_FALSE(is_heard(0.5));
+    CHECK(is_heard(1.0) == (help > 0.0));
+    CHECK_FALSE(is_heard(0.8));
+    CHECK(is_heard(0.7) == (help > 0.0));
+    CHECK_FALSE(is_heard(0.0));
+    cabin.car.pedals.clutch = 0.9;
+    if (help > 0.0) CHECK(strongest_line(left(cabin.run(0.05))) == doctest::Approx(kBiteTone).epsilon(0.02));
+  }
+}

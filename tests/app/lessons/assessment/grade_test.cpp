@@ -209,6 +209,7 @@ TEST_CASE("only a finished lesson can be passed") {
 TEST_CASE("a guided trial and an incomplete record have no grade") {
   LessonResult guided = done_with({Severity::minor});
   guided.guided = true;
+  guided.lever_help = 0.5;
   guided = graded(guided);
   CHECK(guided.grade == 0.0);
   CHECK(points_lost(guided) == 0.0);
@@ -227,13 +228,63 @@ TEST_CASE("the run's error is the sum of its errors' points, guided or not") {
   CHECK(run_error(result) == doctest::Approx(0.3));
   result.end = LessonEnd::aborted;
   CHECK(run_error(result) == 1.0);
-  CHECK(lever_error(result) == 0.0);  // a jerk is the foot's
+  CHECK(lever_error(result, nullptr) == 0.0);  // a jerk is the foot's
+  CHECK(pedal_error(result, nullptr) == doctest::Approx(0.3));
   result.end = LessonEnd::done;
   result.errors = {make_driving_error(ErrorKind::wrong_column, Severity::minor, 1.0, 1.0),
                    make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 60.0)};
   CHECK(run_error(result) == doctest::Approx(0.25));
-  CHECK(lever_error(result) == doctest::Approx(0.05));
+  CHECK(lever_error(result, nullptr) == doctest::Approx(0.05));
+  CHECK(pedal_error(result, nullptr) == doctest::Approx(0.2));
   result.score = 1.0;  // as far from practised drivers as a pass allows: 4 of 10 points
   CHECK(run_error(result) == doctest::Approx(0.4));
   CHECK(run_error(done_with(std::vector<Severity>(9, Severity::very_severe))) == 1.0);
+}
+
+TEST_CASE("the error of a limb grows with the distance of its own figures") {
+  Norm norm;
+  norm.limit = 1.0;
+  norm.figures[0] = FigureNorm{500.0, 2.0};  // clutch heat
+  norm.figures[5] = FigureNorm{1.1, 1.1};    // path of the lever
+  LessonResult result = done_with({});
+  result.score = 1.0;
+  result.slip_energy = 500.0;
+  result.figures.path_efficiency = 1.1 * 1.1 * 1.1;  // two standard deviations: twice the limit, half the grade of 6
+  CHECK(lever_error(result, &norm) == doctest::Approx(0.7));
+  CHECK(pedal_error(result, &norm) == 0.0);
+  result.slip_energy = 2000.0;
+  result.figures.path_efficiency = 1.0;
+  CHECK(lever_error(result, &norm) == 0.0);
+  CHECK(pedal_error(result, &norm) == doctest::Approx(0.7));
+  result.score.reset();  // another car: the norm did not judge this run
+  CHECK(pedal_error(result, &norm) == 0.0);
+}
+
+TEST_CASE("the thing to mend is the error or the figure that failed the run, whatever else went wrong") {
+  Lesson lesson;
+  Norm norm;
+  norm.figures[0] = FigureNorm{500.0, 2.0};
+  norm.figures[5] = FigureNorm{1.1, 1.1};
+  const auto mend = [&](LessonResult result) {
+    grade_result(lesson, result, &norm);
+    return std::string(thing_to_mend(lesson, result, &norm));
+  };
+  LessonResult hot = done_with({Severity::minor});
+  hot.slip_energy = 50e3;
+  hot.figures.path_efficiency = 1.1;
+  CHECK(mend(hot) == kRunFigures[0].advice);
+  LessonResult crooked = hot;
+  crooked.slip_energy = 500.0;
+  crooked.figures.path_efficiency = 3.0;
+  CHECK(mend(crooked) == kRunFigures[5].advice);
+  LessonResult stalled = crooked;
+  stalled.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 60.0));
+  CHECK(mend(stalled) == error_advice(ErrorKind::stall));
+  LessonResult good = done_with({});
+  good.slip_energy = 500.0;
+  good.figures.path_efficiency = 1.1;
+  CHECK(mend(good).empty());
+  good.errors.push_back(make_driving_error(ErrorKind::riding_clutch, Severity::minor, 1.0, 3.0));
+  CHECK(mend(good) == error_advice(ErrorKind::riding_clutch));
+  for (const RunFigure& figure : kRunFigures) CHECK_FALSE(figure.advice.empty());
 }

@@ -2,6 +2,9 @@
 // lesson with the lowest grades.
 #include "app/lessons/assessment/suggest.h"
 
+#include <string>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 using namespace gearshift::lessons;
@@ -47,6 +50,82 @@ TEST_CASE("a beginner starts with the first lesson, and continues with the first
   CHECK(next({result("start", 4.0)}) == "start");
   CHECK(next({result("start", 8.0), result("bite", 3.0)}) == "bite");
   CHECK(next({result("bite", 9.0)}) == "start");
+}
+
+namespace {
+
+constexpr std::int64_t kDay = 24 * 3600, kFirstDay = 20'000 * kDay;  // [s] since 1970
+
+// Trials on a day, counted from kFirstDay, each with the break since the lesson's previous trial.
+struct Diary {
+  std::vector<GradedTrial> past;
+  void drive(const char* lesson, std::int64_t day, double grade, const char* car = "hatchback", double path = 0.1) {
+    GradedTrial trial = result(lesson, grade);
+    trial.begun = kFirstDay + day * kDay + 36'000;
+    trial.begun_at = std::to_string(1000 + day) + "-01-01";  // only compared
+    for (const GradedTrial& before : past)
+      if (before.lesson == lesson) trial.pause = static_cast<double>(*trial.begun - *before.begun);
+    trial.car = car;
+    trial.path_length = path;
+    past.push_back(trial);
+  }
+  Suggestion on(std::int64_t day) const {
+    return *suggest_lesson(three_lessons(), past, {}, kFirstDay + day * kDay + 40'000);
+  }
+};
+
+bool says(const Suggestion& suggestion, const char* words) {
+  return suggestion.why.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a week after a confirmed lesson was last driven, a retention test is due, once a day, longest break first") {
+  Diary diary;
+  diary.drive("start", 0, 9.0);
+  diary.drive("start", 1, 9.0);
+  diary.drive("bite", 2, 9.0);
+  diary.drive("bite", 3, 9.0);
+  CHECK(diary.on(4).lesson == "away");  // never passed; nothing is due yet
+  CHECK(diary.on(7).lesson == "away");
+  CHECK(diary.on(8).lesson == "start");
+  CHECK(says(diary.on(8), "You last drove Start 7 days ago."));
+  CHECK(diary.on(30).lesson == "start");  // both are due
+  diary.drive("start", 30, 3.0);
+  CHECK(diary.on(30).lesson == "away");  // one test a day, whatever its result
+  CHECK(diary.on(31).lesson == "bite");
+}
+
+TEST_CASE("a lesson passed only once, or given up, is never due for a test; nor is anything without a date") {
+  Diary diary;
+  diary.drive("start", 0, 9.0);
+  CHECK(diary.on(60).lesson == "bite");
+  diary.drive("start", 1, 9.0);
+  CHECK(diary.on(60).lesson == "start");
+  CHECK(suggest_lesson(three_lessons(), diary.past, {})->lesson == "bite");
+  for (GradedTrial& trial : diary.past) trial.begun.reset();
+  CHECK(diary.on(60).lesson == "bite");
+}
+
+TEST_CASE(
+    "a transfer test is due once a retention test was passed, until the lesson was driven with another car or gate") {
+  for (const bool other_car : {true, false}) {
+    CAPTURE(other_car);
+    Diary diary;
+    diary.drive("start", 0, 9.0);
+    diary.drive("start", 1, 9.0);
+    diary.drive("start", 10, 2.0);  // the retention test failed
+    CHECK(diary.on(11).lesson == "bite");
+    diary.drive("start", 12, 9.0);
+    CHECK(diary.on(13).lesson == "bite");  // passed, but not after a week
+    diary.drive("start", 20, 9.0);
+    CHECK(diary.on(20).lesson == "bite");
+    CHECK(diary.on(21).lesson == "start");
+    CHECK(says(diary.on(21), "another car or gate"));
+    diary.drive("start", 21, 9.0, other_car ? "diesel" : "hatchback", other_car ? 0.1 : 0.2);
+    CHECK(diary.on(21).lesson == "bite");
+    CHECK(diary.on(22).lesson == "bite");
+  }
 }
 
 TEST_CASE("a lesson never passed comes before one that became weak, however often it was tried") {

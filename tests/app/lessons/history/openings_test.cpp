@@ -117,6 +117,9 @@ TEST_CASE("a file of version 1 is upgraded: its runs keep their verdict, which c
     CHECK(result.shifts.size() == 2);
     CHECK_FALSE(result.score);
     CHECK_FALSE(result.figures.jerk_peak);
+    CHECK(result.car.empty());
+    CHECK(result.lever_help == (result.guided ? 1.0 : 0.0));
+    CHECK(result.pedal_help == 0.0);
   }
   History history(file);
   const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
@@ -125,6 +128,10 @@ TEST_CASE("a file of version 1 is upgraded: its runs keep their verdict, which c
   CHECK(result.grading == Grading::norm);
   CHECK(result.score == 0.75);
   CHECK(result.figures.impulse == 4.5);
+  CHECK(result.car == "hatchback");
+  CHECK(result.path_length == 0.25);
+  CHECK(result.lever_help == 0.5);
+  CHECK(result.pedal_help == 0.125);
   CHECK_FALSE(result.figures.clutch_lag_error);
 }
 

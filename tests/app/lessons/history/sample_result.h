@@ -37,6 +37,10 @@ inline lessons::LessonResult some_result(int shifts) {
   result.slip_energy = 2020.5;
   result.figures = {31.5, 12.25, 0.125, std::nullopt, 1.0625, 4.5};
   result.grading = lessons::Grading::norm;
+  result.car = "hatchback";
+  result.path_length = 0.25;
+  result.lever_help = 0.5;
+  result.pedal_help = 0.125;
   result.score = 0.75;
   result.errors = {make_driving_error(lessons::ErrorKind::stall, lessons::Severity::severe, 13.5, 36.6, -1),
                    make_driving_error(lessons::ErrorKind::rollback, lessons::Severity::minor, 14.5, 0.3, 0),

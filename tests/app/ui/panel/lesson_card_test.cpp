@@ -313,8 +313,14 @@ TEST_CASE("a guided trial is marked while it is driven, not before; a retention 
   CHECK_FALSE(says("test: no guidance"));
   coach.guidance = 0.8;
   rig.show(coach);
-  CHECK(says("guided, not graded"));
+  CHECK(says("lever guided, not graded"));
+  coach.pedal_help = 0.5;
+  rig.show(coach);
+  CHECK(says("lever and pedals helped, not graded"));
   coach.guidance = 0.0;
+  rig.show(coach);
+  CHECK(says("pedals helped, not graded"));
+  coach.pedal_help = 0.0;
   coach.retention = true;
   rig.show(coach);
   CHECK(says("test: no guidance"));
