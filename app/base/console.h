@@ -28,10 +28,25 @@ inline void print_line(std::string_view line) {
   std::fflush(stdout);
 }
 
+// Hides what libraries print to standard error while it exists; our own messages are still printed. Only one may exist at
+// a time. All those who redirect standard error must do it on one thread, or one after the other.
+class QuietLibraries {
+ public:
+  QuietLibraries();
+  ~QuietLibraries();
+  QuietLibraries(const QuietLibraries&) = delete;
+  QuietLibraries& operator=(const QuietLibraries&) = delete;
+
+ private:
+  int saved_;
+};
+
+std::FILE* message_output() noexcept;  // standard error, also while QuietLibraries hides it
+
 // Prints a line to standard error; for errors and for messages that are not part of the results.
 template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
-  print_to(stderr, "gearshift: " + fmt::format(format, std::forward<Values>(values)...) + '\n');
+  print_to(message_output(), "gearshift: " + fmt::format(format, std::forward<Values>(values)...) + '\n');
 }
 
 }  // namespace gearshift::base

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/runtime/force_watch.h"
+#include "app/runtime/controls_watch.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/loop/haptic_loop.h"

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "app/runtime/controls_watch.h"
 #include "app/runtime/cycle_runner.h"
 #include "app/runtime/force_rules.h"
-#include "app/runtime/force_watch.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/device/hand.h"
@@ -55,9 +55,9 @@ struct RuntimeConfig {
   haptics::PedalKeys pedal_keys;      // initial keys, until set_controls()
   vehicle::PedalTiming pedal_timing;  // of the car's pedals that keys press
   RuntimeClock clock = RuntimeClock::real_time;
-  std::uint64_t seed = 1;             // random seed of the car
-  std::shared_ptr<ForceWatch> watch;  // on the real clock, ends the forces; null: none
-  std::string program = "gearshift";  // program name and version, written to the trace
+  std::uint64_t seed = 1;                // random seed of the car
+  std::shared_ptr<ControlsWatch> watch;  // on the real clock, ends the forces; null: none
+  std::string program = "gearshift";     // program name and version, written to the trace
 };
 
 // Timing of the haptic thread.

@@ -16,7 +16,8 @@ constexpr std::chrono::seconds kMaxOpening(10);  // a runtime that has not opene
 // The removal of the headset is reported after this delay, because a user who quits also removes the headset and
 // needs no report.
 constexpr std::chrono::seconds kTakenOffDelay(1);
-constexpr double kTip = 0.10;  // [m] length of the hand's beam while the user touches the knob
+constexpr std::chrono::seconds kUnseenIsOff(2);  // see LearnerHeadset::is_off()
+constexpr double kTip = 0.10;                    // [m] length of the hand's beam while the user touches the knob
 
 engine::HeadsetPanel in_room(const engine::EyePose& cabin_from_room, const cabin::HangingPanel& panel) {
   return {engine::inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
@@ -39,11 +40,13 @@ LearnerHeadset::LearnerHeadset(const HeadsetSetup& setup, engine::Window& window
 
 bool LearnerHeadset::is_found() {
   const auto now = std::chrono::steady_clock::now();
+  if (quiet_ && !opening_ && engine::HeadsetThread::wait_for_ended(std::chrono::milliseconds(0))) quiet_.reset();
   if (view_ || (!opening_ && now < next_try_)) return false;
   try {
     if (!opening_) {
       // A runtime in which an earlier headset is still blocked has no room for another one.
       if (!engine::HeadsetThread::wait_for_ended(std::chrono::milliseconds(0))) return false;
+      if (!quiet_) quiet_.emplace();
       opening_ = std::make_unique<cabin::OpeningHeadset>(setup_.view);
       began_opening_ = now;
     }
@@ -81,6 +84,7 @@ bool LearnerHeadset::open() {
     lose(error.what());
     return false;
   }
+  quiet_.reset();
   message_ = fmt::format("{} connected through {}", view_->headset().headset, view_->headset().runtime);
   return true;
 }
@@ -105,12 +109,14 @@ bool LearnerHeadset::set_model(const engine::Model& model) {
 
 // Closes the view after an error.
 void LearnerHeadset::lose(const std::string& why) {
+  if (!quiet_) quiet_.emplace();
   view_.reset();
   opening_.reset();
   pointer_.reset();
   beam_.reset();
   was_worn_ = false;
   taken_off_at_.reset();
+  unseen_since_.reset();
   seating_.on_headset_lost();
   next_try_ = std::chrono::steady_clock::now() + pause_;
   pause_ = std::min(2 * pause_, kMaxPause);  // doubled, because each attempt interrupts the desktop's picture
@@ -124,14 +130,13 @@ bool LearnerHeadset::begin(const cabin::Stage& stage) {
     wants_exit_ = wants_exit_ || view_->state() == engine::HeadsetState::exiting;
     if (std::string message = view_->take_message(); !message.empty())
       message_ = "the window does not mirror the headset: " + message;
-    if (std::exchange(was_worn_, worn) && !worn) on_taken_off();
-    report_taken_off();
+    follow_wearing();
     pointer_.reset();
     beam_.reset();
     if (!view_->has_begun()) return;
     while (const std::optional<engine::SpaceChange> change = view_->take_due_space_change())
       seating_.follow(*change, view_->is_room_persistent());
-    if (view_->is_shown()) {
+    if (view_->is_shown() && was_worn_) {
       pause_ = kMinPause;
       reported_.clear();
       update_seat(stage);
@@ -141,9 +146,27 @@ bool LearnerHeadset::begin(const cabin::Stage& stage) {
   return worn && view_ != nullptr;
 }
 
-void LearnerHeadset::on_taken_off() {
-  seating_.on_headset_removed();
-  taken_off_at_ = std::chrono::steady_clock::now();
+// Some runtimes keep the session when the headset is taken off, but show nothing of it; so does another program that is
+// shown for a moment, so this counts only after a while.
+bool LearnerHeadset::is_off() const {
+  if (view_->is_present()) return !*view_->is_present();
+  if (view_->state() >= engine::HeadsetState::visible || !unseen_since_) return false;
+  return std::chrono::steady_clock::now() - *unseen_since_ >= kUnseenIsOff;
+}
+
+void LearnerHeadset::follow_wearing() {
+  const auto now = std::chrono::steady_clock::now();
+  const bool is_seen =
+      view_->state() == engine::HeadsetState::visible || view_->state() == engine::HeadsetState::focused;
+  if (is_seen || !was_worn_) unseen_since_.reset();
+  if (!is_seen && was_worn_ && !unseen_since_) unseen_since_ = now;
+  if (was_worn_ && is_off()) {
+    was_worn_ = false;
+    seating_.on_headset_removed();
+    taken_off_at_ = unseen_since_.value_or(now);
+  }
+  was_worn_ = was_worn_ || (is_seen && !is_off());
+  report_taken_off();
 }
 
 void LearnerHeadset::report_taken_off() {
@@ -183,7 +206,7 @@ void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
     const engine::HeadsetHand& hand = hands[i];
     const bool selected = std::exchange(selected_[i], hand.selects), had_menu = std::exchange(menu_[i], hand.menu);
     const bool pressed = hand.selects && !selected;
-    if (hand.menu && !had_menu) opened_ = panel_open_ = !panel_open_;
+    if (hand.menu && !had_menu) toggle_panel();
     if (!hand.is_tracked) continue;
     const engine::EyePose aim = seating_.cabin_from_room() * hand.aim;
     const glm::dvec3 along = aim.orientation * glm::dvec3(0.0, 0.0, -1.0);
@@ -240,6 +263,8 @@ cabin::HeadsetReport LearnerHeadset::report() const {
   report.timing = view_->timing();
   report.is_tracked = view_->eyes().is_tracked;
   report.orientation_only = view_->eyes().is_oriented && !view_->eyes().is_known;
+  const auto& hands = view_->hands();
+  report.has_controller = view_->state() != engine::HeadsetState::focused || hands[0].is_active || hands[1].is_active;
   seating_.report(report);
   return report;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "app/base/console.h"
 #include "app/cabin/headset/hanging_panel.h"
 #include "app/cabin/headset/headset_report.h"
 #include "app/cabin/headset/seat_calibration.h"
@@ -63,6 +64,7 @@ class LearnerHeadset {
   const std::optional<cabin::Beam>& beam() const noexcept { return beam_; }    // the hand's beam in cabin coordinates
   bool wants_exit() const noexcept { return wants_exit_; }
   // Returns true once after a menu button has opened the whole panel.
+  void toggle_panel() noexcept { opened_ = panel_open_ = !panel_open_; }  // the whole panel, or only the lesson card
   bool take_opened() noexcept { return std::exchange(opened_, false); }
 
   void recentre() noexcept { seating_.recentre(); }
@@ -78,7 +80,8 @@ class LearnerHeadset {
   void lose(const std::string& why);
   template <class Work>
   void guarded(const Work& work);
-  void on_taken_off();
+  bool is_off() const;
+  void follow_wearing();
   void report_taken_off();
   void update_seat(const cabin::Stage& stage);
   void follow_hands(const cabin::Stage& stage);
@@ -86,6 +89,8 @@ class LearnerHeadset {
   HeadsetSetup setup_;
   engine::Window& window_;
   engine::UiContext& ui_;
+  // While a headset is opened or closed: client libraries of runtimes print lines to stderr at each attempt.
+  std::optional<base::QuietLibraries> quiet_;
   std::unique_ptr<cabin::OpeningHeadset> opening_;  // null: none is being opened
   std::chrono::steady_clock::time_point began_opening_{};
   std::unique_ptr<cabin::HeadsetView> view_;
@@ -95,6 +100,8 @@ class LearnerHeadset {
 
   cabin::SeatCalibration seating_;
   bool was_worn_ = false;
+  // Since when the session of a worn headset shows nothing.
+  std::optional<std::chrono::steady_clock::time_point> unseen_since_;
   // Time at which the headset was taken off; empty once this has been reported.
   std::optional<std::chrono::steady_clock::time_point> taken_off_at_;
   bool placed_ = false;  // true if the head's position is known; else the head is placed at the driver's eye point

@@ -30,7 +30,7 @@ struct SessionChoice {
   // kAutomaticHand. Empty: the preset's hand.
   std::string hand;
   std::shared_ptr<runtime::StickLever> stick;       // the real stick; null: the simulated lever
-  std::shared_ptr<runtime::ForceWatch> watch;       // of every lever of the session; null: none
+  std::shared_ptr<runtime::ControlsWatch> watch;    // of every lever of the session; null: none
   std::string camera = "driver";                    // name of the first camera, see cabin_for_camera()
   cabin::DriveSide drive = cabin::DriveSide::left;  // side on which the driver sits
   runtime::RuntimeClock clock = runtime::RuntimeClock::real_time;

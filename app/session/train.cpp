@@ -351,7 +351,10 @@ class WindowTrainer {
         show_help();
         break;
       case ui::Action::panel:
-        panel_.set_visible(!panel_.visible());
+        if (is_worn())
+          headset_->toggle_panel();
+        else
+          panel_.set_visible(!panel_.visible());
         break;
       case ui::Action::next_camera:
         if (wears()) break;
@@ -476,7 +479,7 @@ bool is_done(const Session& session) {
 
 int run_trainer(TrainSetup setup) {
   const base::StopSignals signals;
-  setup.choice.watch = std::make_shared<runtime::ForceWatch>();
+  setup.choice.watch = std::make_shared<runtime::ControlsWatch>();
   WindowTrainer trainer(setup);
   try {
     while (!trainer.done()) trainer.frame();

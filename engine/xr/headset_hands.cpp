@@ -4,31 +4,46 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace gearshift::engine {
 namespace {
 
-// An interaction profile: its path, and the input paths of the controller below /user/hand/left or /user/hand/right.
-// null: the controller has no such input.
+// An interaction profile of the OpenXR registry (xr.xml): its path, the extension that it needs (null: none), and the
+// input paths of the controller below /user/hand/left or /user/hand/right. null: the controller has no such input.
 struct Profile {
-  const char *name, *select, *menu, *scroll;
+  const char *name, *extension, *select, *menu_left, *menu_right, *scroll;
 };
+constexpr const char *kTrigger = "/input/trigger/value", *kClick = "/input/trigger/click", *kMenu = "/input/menu/click",
+                     *kY = "/input/y/click", *kB = "/input/b/click", *kStick = "/input/thumbstick",
+                     *kPad = "/input/trackpad";
+constexpr const char* kPico = "XR_BD_controller_interaction";
+// clang-format off
 constexpr Profile kProfiles[] = {
-    {"/interaction_profiles/khr/simple_controller", "/input/select/click", "/input/menu/click", nullptr},
-    {"/interaction_profiles/oculus/touch_controller", "/input/trigger/value", nullptr, "/input/thumbstick"},
-    {"/interaction_profiles/valve/index_controller", "/input/trigger/click", "/input/b/click", "/input/thumbstick"},
-    {"/interaction_profiles/htc/vive_controller", "/input/trigger/click", "/input/menu/click", "/input/trackpad"},
-    {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value", "/input/menu/click",
-     "/input/thumbstick"},
+    {"khr/simple_controller", nullptr, "/input/select/click", kMenu, kMenu, nullptr},
+    {"oculus/touch_controller", nullptr, kTrigger, kY, kB, kStick},
+    {"valve/index_controller", nullptr, kClick, kB, kB, kStick},
+    {"htc/vive_controller", nullptr, kClick, kMenu, kMenu, kPad},
+    {"microsoft/motion_controller", nullptr, kTrigger, kMenu, kMenu, kStick},
+    {"facebook/touch_controller_pro", "XR_FB_touch_controller_pro", kTrigger, kY, kB, kStick},
+    {"meta/touch_controller_plus", "XR_META_touch_controller_plus", kTrigger, kY, kB, kStick},
+    {"bytedance/pico_neo3_controller", kPico, kTrigger, kY, kB, kStick},
+    {"bytedance/pico4_controller", kPico, kTrigger, kY, kB, kStick},
+    {"bytedance/pico_g3_controller", kPico, kTrigger, kMenu, kMenu, kStick},
+    {"hp/mixed_reality_controller", "XR_EXT_hp_mixed_reality_controller", kTrigger, kMenu, kMenu, kStick},
+    {"htc/vive_cosmos_controller", "XR_HTC_vive_cosmos_controller_interaction", kTrigger, kY, kB, kStick},
+    {"htc/vive_focus3_controller", "XR_HTC_vive_focus3_controller_interaction", kTrigger, kY, kB, kStick},
+    {"ml/ml2_controller", "XR_ML_ml2_controller_interaction", kTrigger, kMenu, kMenu, kPad},
+    {"ext/hand_interaction_ext", "XR_EXT_hand_interaction", "/input/aim_activate_ext/value", nullptr, nullptr, nullptr},
+    {"microsoft/hand_interaction", "XR_MSFT_hand_interaction", "/input/select/value", nullptr, nullptr, nullptr},
 };
-// The menu buttons of the left and right hand differ on this controller.
-constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
-constexpr const char* kTouchMenus[] = {"/input/y/click", "/input/b/click"};
+// clang-format on
 constexpr const char* kHands[] = {"/user/hand/left", "/user/hand/right"};
 
 }  // namespace
 
-HeadsetHands::HeadsetHands(XrInstance instance, XrSession session) : instance_(instance), session_(session) {
+HeadsetHands::HeadsetHands(XrInstance instance, XrSession session, const std::vector<std::string>& extensions)
+    : instance_(instance), session_(session) {
   XrActionSetCreateInfo set{XR_TYPE_ACTION_SET_CREATE_INFO};
   std::strcpy(set.actionSetName, "panel");
   std::strcpy(set.localizedActionSetName, "Panel");
@@ -38,7 +53,7 @@ HeadsetHands::HeadsetHands(XrInstance instance, XrSession session) : instance_(i
   select_ = make_action("select", "Click", XR_ACTION_TYPE_BOOLEAN_INPUT);
   menu_ = make_action("menu", "Show or hide the panel", XR_ACTION_TYPE_BOOLEAN_INPUT);
   scroll_ = make_action("scroll", "Scroll", XR_ACTION_TYPE_VECTOR2F_INPUT);
-  suggest_bindings();
+  suggest_bindings(extensions);
   XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
   attach.countActionSets = 1;
   attach.actionSets = &set_;
@@ -75,27 +90,39 @@ XrAction HeadsetHands::make_action(const char* name, const char* label, XrAction
   return action;
 }
 
-// Suggests bindings for each controller profile. A profile unknown to the runtime is skipped.
-void HeadsetHands::suggest_bindings() {
+// Suggests bindings for each controller whose extension is enabled. A profile unknown to the runtime is skipped.
+void HeadsetHands::suggest_bindings(const std::vector<std::string>& extensions) {
   for (const Profile& profile : kProfiles) {
+    if (profile.extension != nullptr &&
+        std::find(extensions.begin(), extensions.end(), profile.extension) == extensions.end())
+      continue;
     std::vector<XrActionSuggestedBinding> bindings;
     for (std::size_t i = 0; i < 2; ++i) {
       const auto bind = [&](XrAction action, const char* input) {
         if (input != nullptr) bindings.push_back({action, path((std::string(kHands[i]) + input).c_str())});
       };
-      const bool is_touch = std::strcmp(profile.name, kTouch) == 0;
       bind(aim_, "/input/aim/pose");
       bind(select_, profile.select);
-      bind(menu_, is_touch ? kTouchMenus[i] : profile.menu);
+      bind(menu_, i == 0 ? profile.menu_left : profile.menu_right);
       bind(scroll_, profile.scroll);
     }
     XrInteractionProfileSuggestedBinding info{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
-    info.interactionProfile = path(profile.name);
+    info.interactionProfile = path((std::string("/interaction_profiles/") + profile.name).c_str());
     info.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
     info.suggestedBindings = bindings.data();
     const XrResult result = xrSuggestInteractionProfileBindings(instance_, &info);
     if (result != XR_ERROR_PATH_UNSUPPORTED) check(result, "xrSuggestInteractionProfileBindings");
   }
+}
+
+std::vector<const char*> HeadsetHands::extensions() {
+  std::vector<const char*> all;
+  for (const Profile& profile : kProfiles) {
+    const bool is_new =
+        profile.extension != nullptr && (all.empty() || std::string_view(all.back()) != profile.extension);
+    if (is_new) all.push_back(profile.extension);
+  }
+  return all;
 }
 
 void HeadsetHands::sync() {
@@ -113,12 +140,13 @@ std::array<HeadsetHand, 2> HeadsetHands::read(XrSpace space, XrTime time) const 
   return {read(0, space, time), read(1, space, time)};
 }
 
-bool HeadsetHands::is_pressed(XrAction action, XrPath hand) const {
+bool HeadsetHands::is_pressed(XrAction action, XrPath hand, bool* is_active) const {
   XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
   info.action = action;
   info.subactionPath = hand;
   XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
   check(xrGetActionStateBoolean(session_, &info, &state), "xrGetActionStateBoolean");
+  if (is_active != nullptr) *is_active = state.isActive == XR_TRUE;
   return state.isActive == XR_TRUE && state.currentState == XR_TRUE;
 }
 
@@ -130,7 +158,7 @@ HeadsetHand HeadsetHands::read(std::size_t hand, XrSpace space, XrTime time) con
   out.is_tracked = (location.locationFlags & kBoth) == kBoth;
   out.is_position_tracked = (location.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
   if (out.is_tracked) out.aim = pose_of(location.pose);
-  out.selects = is_pressed(select_, hand_[hand]);
+  out.selects = is_pressed(select_, hand_[hand], &out.is_active);
   out.menu = is_pressed(menu_, hand_[hand]);
   XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
   info.action = scroll_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "engine/xr/headset_session.h"
 #include "engine/xr/openxr.h"
@@ -10,19 +12,21 @@ namespace gearshift::engine {
 
 class HeadsetHands {
  public:
-  HeadsetHands(XrInstance instance, XrSession session);
+  // `extensions`: those that are enabled.
+  HeadsetHands(XrInstance instance, XrSession session, const std::vector<std::string>& extensions);
   ~HeadsetHands();
   HeadsetHands(const HeadsetHands&) = delete;
   HeadsetHands& operator=(const HeadsetHands&) = delete;
 
-  void sync();                                                        // reads the controllers' state from the runtime
+  static std::vector<const char*> extensions();  // those that controllers need; to be enabled where they are offered
+  void sync();                                   // reads the controllers' state from the runtime
   std::array<HeadsetHand, 2> read(XrSpace space, XrTime time) const;  // as of the last sync()
 
  private:
   XrAction make_action(const char* name, const char* label, XrActionType type);
-  void suggest_bindings();
+  void suggest_bindings(const std::vector<std::string>& extensions);
   XrPath path(const char* text) const;
-  bool is_pressed(XrAction action, XrPath hand) const;
+  bool is_pressed(XrAction action, XrPath hand, bool* is_active = nullptr) const;
   HeadsetHand read(std::size_t hand, XrSpace space, XrTime time) const;
 
   XrInstance instance_;

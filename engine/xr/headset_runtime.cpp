@@ -2,33 +2,20 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iostream>
 
 #include <fmt/format.h>
 
+#include "engine/xr/headset_hands.h"
 #include "engine/xr/headset_runtime_state.h"
 
 namespace gearshift::engine {
 namespace {
 
+constexpr const char* kNoService =
+    "the OpenXR runtime is installed, but its service does not run; start SteamVR, monado-service, wivrn-server or the "
+    "headset's own program";
 constexpr const char* kNoRuntime =
     "no OpenXR runtime found; start the headset's software, or set XR_RUNTIME_JSON to the runtime's manifest";
-
-// If there is no runtime, Debian's loader prints four lines to std::cerr, whatever XR_LOADER_DEBUG says. Our error
-// message says the same in one sentence.
-class QuietLoader {
- public:
-  QuietLoader() : saved_buffer_(std::cerr.rdbuf(nullptr)) {}
-  ~QuietLoader() {
-    std::cerr.rdbuf(saved_buffer_);
-    std::cerr.clear();
-  }
-  QuietLoader(const QuietLoader&) = delete;
-  QuietLoader& operator=(const QuietLoader&) = delete;
-
- private:
-  std::streambuf* saved_buffer_;
-};
 
 std::vector<XrExtensionProperties> offered_extensions() {
   try {
@@ -58,10 +45,7 @@ glm::ivec2 size_of(std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 HeadsetRuntime::State::State() {
-  {
-    const QuietLoader quiet;
-    make_instance();
-  }
+  make_instance();
   try {
     find_headset();
     check_vulkan();
@@ -82,8 +66,13 @@ void HeadsetRuntime::State::make_instance() {
   std::vector<const char*> wanted{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
   traits.depth = has_extension(offered, XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   timespec = has_extension(offered, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
+  if (has_extension(offered, XR_EXT_USER_PRESENCE_EXTENSION_NAME))
+    wanted.push_back(XR_EXT_USER_PRESENCE_EXTENSION_NAME);
+  for (const char* const name : HeadsetHands::extensions())
+    if (has_extension(offered, name)) wanted.push_back(name);
   if (traits.depth) wanted.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (timespec) wanted.push_back(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
+  extensions.assign(wanted.begin(), wanted.end());
   XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
   std::strcpy(info.applicationInfo.applicationName, "gearshift");
   std::strcpy(info.applicationInfo.engineName, "gearshift");
@@ -91,7 +80,10 @@ void HeadsetRuntime::State::make_instance() {
   info.enabledExtensionCount = static_cast<std::uint32_t>(wanted.size());
   info.enabledExtensionNames = wanted.data();
   const XrResult result = xrCreateInstance(&info, &instance);
-  if (result == XR_ERROR_RUNTIME_UNAVAILABLE) throw HeadsetError(kNoRuntime);
+  // Monado's client reports the first of these while nobody serves it.
+  if (result == XR_ERROR_RUNTIME_FAILURE || result == XR_ERROR_RUNTIME_UNAVAILABLE ||
+      result == XR_ERROR_INITIALIZATION_FAILED)
+    throw HeadsetError(kNoService);
   check(result, "xrCreateInstance");
   XrInstanceProperties properties{XR_TYPE_INSTANCE_PROPERTIES};
   if (XR_SUCCEEDED(xrGetInstanceProperties(instance, &properties)))

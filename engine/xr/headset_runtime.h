@@ -22,7 +22,8 @@ struct HeadsetTraits {
 class HeadsetRuntime final : public GpuFactory {
  public:
   // Throws HeadsetAbsent if no headset is connected to the runtime now. Throws HeadsetError with one sentence if there
-  // is no runtime (XR_RUNTIME_JSON, or the system's active runtime) or if it lacks a requirement: two eyes, Vulkan 1.3.
+  // is no runtime (XR_RUNTIME_JSON, or the system's active runtime), if its service does not run, or if it lacks a
+  // requirement: two eyes, Vulkan 1.3. Runtime and loader may print to stderr.
   HeadsetRuntime();
   ~HeadsetRuntime() override;
   HeadsetRuntime(const HeadsetRuntime&) = delete;

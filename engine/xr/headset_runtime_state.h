@@ -17,7 +17,8 @@ struct HeadsetRuntime::State {
   XrInstance instance = XR_NULL_HANDLE;
   XrSystemId system = XR_NULL_SYSTEM_ID;
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
-  bool timespec = false;  // the runtime can convert our clock's times to its own clock
+  std::vector<std::string> extensions;  // enabled
+  bool timespec = false;                // the runtime can convert our clock's times to its own clock
   HeadsetTraits traits;
 
  private:

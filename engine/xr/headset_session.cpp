@@ -68,6 +68,7 @@ struct HeadsetSession::State {
   State& operator=(const State&) = delete;
 
   void make_session();
+  void leave() noexcept;
   XrSpace make_space(XrReferenceSpaceType type) const;
   void make_images(const HeadsetConfig& config);
   void make_depth(const HeadsetConfig& config);
@@ -92,9 +93,11 @@ struct HeadsetSession::State {
   std::unique_ptr<HeadsetHands> hands;
   PFN_xrConvertTimespecTimeToTimeKHR to_runtime_time = nullptr;
   HeadsetState state = HeadsetState::idle;
+  std::optional<bool> is_present;
   bool is_running = false;
   bool depth_of_frame = false;             // depth was written for this frame
   HeadsetEyes eyes;                        // as last located
+  std::array<XrPosef, 2> located{};        // the same as the runtime gave it
   glm::dvec3 eye_midpoint{0.0};            // [m] midpoint between the eyes
   std::array<glm::dvec3, 2> eye_offset{};  // [m] offset of each eye from the midpoint, in head space
   std::vector<Pending> pending;
@@ -110,7 +113,7 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
     space_type = stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
     space = make_space(space_type);
     make_images(config);
-    hands = std::make_unique<HeadsetHands>(xr.instance, session);
+    hands = std::make_unique<HeadsetHands>(xr.instance, session, xr.extensions);
     if (xr.timespec)
       to_runtime_time = load<PFN_xrConvertTimespecTimeToTimeKHR>(xr.instance, "xrConvertTimespecTimeToTimeKHR");
   } catch (...) {
@@ -128,8 +131,31 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
   }
 }
 
+// Ends a running session as OpenXR asks for, so that the runtime shows its own room at once and not a frozen picture. A
+// lost session only fails.
+void HeadsetSession::State::leave() noexcept {
+  constexpr int kMaxFrames = 30;
+  if (!is_running || XR_FAILED(xrRequestExitSession(session))) return;
+  for (int i = 0; i < kMaxFrames && is_running; ++i) {
+    XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
+    const XrResult polled = xrPollEvent(xr.instance, &event);
+    if (XR_FAILED(polled)) return;
+    const bool is_end = polled == XR_SUCCESS && event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED &&
+                        as<XrEventDataSessionStateChanged>(event).state == XR_SESSION_STATE_STOPPING;
+    if (is_end) is_running = XR_FAILED(xrEndSession(session));
+    if (polled != XR_EVENT_UNAVAILABLE) continue;
+    XrFrameState frame{XR_TYPE_FRAME_STATE};
+    XrFrameEndInfo end{XR_TYPE_FRAME_END_INFO};
+    if (XR_FAILED(xrWaitFrame(session, nullptr, &frame)) || XR_FAILED(xrBeginFrame(session, nullptr))) return;
+    end.displayTime = frame.predictedDisplayTime;
+    end.environmentBlendMode = xr.blend;
+    if (XR_FAILED(xrEndFrame(session, &end))) return;
+  }
+}
+
 HeadsetSession::State::~State() {
   const std::lock_guard lock(gpu.queue_mutex());
+  leave();
   gpu.wait_idle();  // because frames in flight may still write to the runtime's images
   hands.reset();
   colour.reset();
@@ -179,6 +205,11 @@ void HeadsetSession::State::make_depth(const HeadsetConfig& config) {
 }
 
 void HeadsetSession::State::handle_event(const XrEventDataBuffer& event) {
+  if (event.type == XR_TYPE_EVENT_DATA_USER_PRESENCE_CHANGED_EXT) {
+    const auto& changed = as<XrEventDataUserPresenceChangedEXT>(event);
+    if (changed.session == session) is_present = changed.isUserPresent == XR_TRUE;
+    return;
+  }
   switch (event.type) {
     case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
       throw HeadsetLost("the OpenXR runtime is shutting down");
@@ -231,6 +262,7 @@ void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags fl
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const Fov fov = fov_of(views[eye].fov);
     if (fov.left < fov.right && fov.down < fov.up) eyes.fov[eye] = fov;
+    located[eye] = views[eye].pose;
     if (orientation_valid) eyes.pose[eye].orientation = pose_of({views[eye].pose.orientation, {}}).orientation;
     if (position_valid) at[eye] = {views[eye].pose.position.x, views[eye].pose.position.y, views[eye].pose.position.z};
   }
@@ -272,6 +304,10 @@ HeadsetState HeadsetSession::state() const noexcept {
 
 bool HeadsetSession::is_waiting() const noexcept {
   return state_->is_waiting;
+}
+
+std::optional<bool> HeadsetSession::is_present() const noexcept {
+  return state_->is_present;
 }
 
 bool HeadsetSession::is_running() const noexcept {
@@ -381,10 +417,14 @@ struct Layers {
   Layers(const Layers&) = delete;
   Layers& operator=(const Layers&) = delete;
 
-  void add_picture(XrSpace space, const HeadsetEyes& eyes, const HeadsetImages& images) {
+  // `located`: poses as the runtime gave them, one of which is submitted unchanged where a picture was drawn from it.
+  void add_picture(XrSpace space, const HeadsetEyes& eyes, const std::array<XrPosef, 2>& located,
+                   const HeadsetImages& images) {
     for (std::uint32_t eye = 0; eye < 2; ++eye) {
       views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
-      views[eye].pose = xr_pose(eyes.pose[eye]);
+      const EyePose same = pose_of(located[eye]);
+      const bool is_same = same.position == eyes.pose[eye].position && same.orientation == eyes.pose[eye].orientation;
+      views[eye].pose = is_same ? located[eye] : xr_pose(eyes.pose[eye]);
       views[eye].fov = xr_fov(eyes.fov[eye]);
       views[eye].subImage = images.layer(eye);
     }
@@ -431,7 +471,7 @@ void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, dou
   for (const auto* images : {&s.colour, &s.depth, &s.panel})
     if (*images) (*images)->release();
   Layers layers;
-  if (eyes != nullptr && s.colour->has_been_released()) layers.add_picture(s.space, *eyes, *s.colour);
+  if (eyes != nullptr && s.colour->has_been_released()) layers.add_picture(s.space, *eyes, s.located, *s.colour);
   if (eyes != nullptr && s.depth_of_frame) layers.add_depth(*s.depth, near_plane);
   if (panel != nullptr && s.panel && s.panel->has_been_released()) layers.add_panel(s.space, *panel, *s.panel);
   XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};

@@ -61,6 +61,7 @@ struct SpaceChange {
 };
 
 struct HeadsetHand {
+  bool is_active = false;  // a controller or tracked hand that this program knows is in use
   bool is_tracked = false;
   bool is_position_tracked = false;  // position is tracked now, not estimated
   EyePose aim;                       // pose of the pointing ray, which points along -Z
@@ -89,9 +90,10 @@ class HeadsetSession {
   HeadsetState state() const noexcept;
   // wait() is waiting for the runtime, which may hold back a frame as long as it likes. May be called on any thread.
   bool is_waiting() const noexcept;
-  bool is_running() const noexcept;          // the runtime requests frames, so wait() paces them
-  const HeadsetEyes& eyes() const noexcept;  // as last located; at first, side by side at the origin
-  bool is_stage() const noexcept;            // poses are in a room-fixed space that persists from day to day
+  std::optional<bool> is_present() const noexcept;  // somebody wears the headset; empty: the runtime does not tell
+  bool is_running() const noexcept;                 // the runtime requests frames, so wait() paces them
+  const HeadsetEyes& eyes() const noexcept;         // as last located; at first, side by side at the origin
+  bool is_stage() const noexcept;                   // poses are in a room-fixed space that persists from day to day
 
   // Waits until the runtime requests the next frame, reads the controllers, and begins that frame. Throws HeadsetLost.
   HeadsetFrame wait();

@@ -17,6 +17,18 @@
 #include "engine/scene/view.h"
 #include "engine/xr/headset_error.h"
 
+// XR_EXT_user_presence, which Debian 12's headers lack.
+#ifndef XR_EXT_user_presence
+#define XR_EXT_USER_PRESENCE_EXTENSION_NAME "XR_EXT_user_presence"
+inline constexpr auto XR_TYPE_EVENT_DATA_USER_PRESENCE_CHANGED_EXT = static_cast<XrStructureType>(1000470000);
+struct XrEventDataUserPresenceChangedEXT {
+  XrStructureType type;
+  const void* next;
+  XrSession session;
+  XrBool32 isUserPresent;
+};
+#endif
+
 namespace gearshift::engine {
 
 // Throws HeadsetLost if the session or the instance is lost, and HeadsetError for any other error: "WHAT failed:

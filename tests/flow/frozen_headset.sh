@@ -21,7 +21,7 @@ opening="EnumerateInstanceExtensionProperties CreateInstance GetInstanceProperti
   SuggestInteractionProfileBindings AttachSessionActionSets CreateActionSpace BeginSession"
 framing="PollEvent WaitFrame BeginFrame SyncActions LocateViews LocateSpace GetActionStateBoolean GetActionStateVector2f
   AcquireSwapchainImage WaitSwapchainImage ReleaseSwapchainImage EndFrame ConvertTimespecTimeToTimeKHR"
-closing="DestroySpace DestroySwapchain DestroyActionSet DestroySession DestroyInstance"
+closing="RequestExitSession DestroySpace DestroySwapchain DestroyActionSet DestroySession DestroyInstance"
 calls="CreateInstance PollEvent WaitFrame EndFrame DestroySession"
 is_full_run && calls="$opening $framing EndSession $closing"
 [ $# -gt 4 ] && calls=${*:5}
@@ -54,7 +54,7 @@ for call in $calls; do
   order go 15 0
   check "$call: it hangs" within 30 hangs "$call"
   order go 15 14 # presses into the wall next to a slot
-  sleep 0.5
+  sleep 0.8
   order mark STOP
   xdotool key space
   sleep 1.2

@@ -29,6 +29,19 @@ check "the missing headset is reported" warned "^gearshift: no headset is connec
 xdotool windowfocus "$window"
 check "the End key ends it" ended_by End
 
+# --- a runtime whose service is off: reported once, and what its client library prints reaches nobody
+begin "without the runtime's service" wear off --lesson none --hand "by itself" < <(
+  echo 'prints = true'
+  for i in 1 1 1; do fails $i xrCreateInstance XR_ERROR_RUNTIME_FAILURE; done)
+check "the window shows the cabin" within 20 shows_desktop
+tried() { [ "$(grep -c "^planted xrCreateInstance" off/log.txt)" -ge "$1" ]; }
+check "it is tried again, after 2 s and after 4 s" within 20 tried 3
+check "one message" one_line
+check "it says what to start" warned "^gearshift: the OpenXR runtime is installed, but its service does not run; start .*monado-service"
+check "the service is started" within 20 warned "$found"
+xdotool windowfocus "$window"
+check "the End key ends it" ended_by End
+
 # --- rejected options
 refused() { # takes the exit code, a part of the error message, and the arguments of train
   timeout 20 "$gearshift" train "${@:3}" >refused.txt 2>refused.err

@@ -16,6 +16,7 @@ struct HeadsetReport {
   engine::HeadsetTiming timing;
   bool is_tracked = false;
   bool orientation_only = false;  // the head's orientation is tracked, but its position is not known yet
+  bool has_controller = true;     // false: the program gets input, but from no controller or hand that it knows
   SeatSettings seat;
   bool is_touched = false;   // the lever's position was determined by touches
   double touch_error = 0.0;  // [m] distance between real and drawn lever

@@ -88,6 +88,7 @@ struct Handover {
   std::unique_ptr<HeadsetParts> parts;
   engine::HeadsetState state = engine::HeadsetState::idle;
   bool is_running = false, is_stage = false;
+  std::optional<bool> is_present;
   std::optional<engine::HeadsetFrame> frame;
   engine::HeadsetEyes eyes, late_eyes;
   std::array<engine::HeadsetHand, 2> hands{};
@@ -185,6 +186,7 @@ struct HeadsetView::State {
   bool is_held = false;      // see HeadsetView::is_held()
   bool is_acquired = false;  // images were acquired for `frame`
   engine::HeadsetState state = engine::HeadsetState::idle;
+  std::optional<bool> is_present;
   bool is_running = false;
   std::optional<engine::HeadsetFrame> frame;  // the current frame, from begin() until draw()
   engine::HeadsetFrame ended;                 // the newest frame that was submitted
@@ -315,6 +317,7 @@ bool HeadsetView::State::take_begun() {
       of.session.poll();
       to.state = of.session.state();
       to.is_running = of.session.is_running();
+      to.is_present = of.session.is_present();
       if (!to.is_running) return;
       to.frame = of.session.wait();
       to.eyes = of.session.locate(*to.frame);
@@ -326,6 +329,7 @@ bool HeadsetView::State::take_begun() {
   if (!is_done(Step::begin)) return false;
   step = Step::none;
   state = at.state;
+  is_present = at.is_present;
   is_running = at.is_running;
   frame = at.frame;
   if (frame) {
@@ -474,6 +478,10 @@ const engine::HeadsetTraits& HeadsetView::headset() const noexcept {
 
 engine::HeadsetState HeadsetView::state() const noexcept {
   return state_->state;
+}
+
+std::optional<bool> HeadsetView::is_present() const noexcept {
+  return state_->is_running ? state_->is_present : false;
 }
 
 bool HeadsetView::is_room_persistent() const noexcept {

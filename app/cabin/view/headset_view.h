@@ -72,7 +72,8 @@ class HeadsetView {
 
   const engine::HeadsetTraits& headset() const noexcept;
   engine::HeadsetState state() const noexcept;
-  bool is_room_persistent() const noexcept;  // true if the tracking space stays the same in the next session
+  std::optional<bool> is_present() const noexcept;  // somebody wears the headset; empty: the runtime does not tell
+  bool is_room_persistent() const noexcept;         // true if the tracking space stays the same in the next session
   const engine::HeadsetTiming& timing() const noexcept;
   glm::ivec2 eye_size() const noexcept;  // [px]
   std::uint64_t validation_messages() const;

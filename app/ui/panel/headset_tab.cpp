@@ -130,6 +130,9 @@ void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_
 
 void draw_headset_tab(Controls& controls, const PanelInput& input, PanelCommands& out) {
   draw_frames(*input.headset);
+  if (!input.headset->has_controller)
+    put_wrapped("No controller that the trainer knows is in use. Use the mouse, and the panel's key for the panel.",
+                ink::kSoft);
   ImGui::Spacing();
   draw_seat(controls, *input.headset, input.stick.has_value(), out);
 }

@@ -218,7 +218,7 @@ TEST_CASE("a stick's forces end 0.2 s after its user's controls were last read, 
     Stick stick;
     RuntimeConfig config = held(stick);
     config.clock = RuntimeClock::real_time;
-    config.watch = std::make_shared<ForceWatch>();
+    config.watch = std::make_shared<ControlsWatch>();
     config.watch->stop();  // this was for an earlier lever
     Runtime runtime(config);
     const auto reads_until_running = [&] {
@@ -252,7 +252,7 @@ TEST_CASE("a stick's forces end 0.2 s after its user's controls were last read, 
 
 TEST_CASE("a simulated lever, which cannot hurt anybody, keeps its forces while no controls are read") {
   RuntimeConfig config = runtime_config(RuntimeClock::real_time);
-  config.watch = std::make_shared<ForceWatch>();
+  config.watch = std::make_shared<ControlsWatch>();
   config.watch->note_read(monotonic_ns() - 1'000'000'000);
   Runtime runtime(config);
   runtime.arm();

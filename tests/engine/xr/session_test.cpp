@@ -5,6 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/xr/frame_times.h"
 #include "tests/engine/xr/session_rig.h"
@@ -397,6 +401,57 @@ TEST_CASE("hands point, click and scroll while focused, and not under another pr
     CHECK(rig.session->state() == HeadsetState::visible);
   }
   check_no_violations();
+}
+
+// The runtime has its own copy of the registry's inputs, and refuses all others.
+TEST_CASE("bindings are suggested for every controller whose extension the runtime offers, and for no other") {
+  xr_test::Control& xr = xr_test::control();
+  const std::set<std::string> core = {
+      "/interaction_profiles/khr/simple_controller", "/interaction_profiles/oculus/touch_controller",
+      "/interaction_profiles/valve/index_controller", "/interaction_profiles/htc/vive_controller",
+      "/interaction_profiles/microsoft/motion_controller"};
+  const std::vector<std::pair<std::string, std::set<std::string>>> extended = {
+      {"XR_FB_touch_controller_pro", {"facebook/touch_controller_pro"}},
+      {"XR_META_touch_controller_plus", {"meta/touch_controller_plus"}},
+      {"XR_BD_controller_interaction",
+       {"bytedance/pico_neo3_controller", "bytedance/pico4_controller", "bytedance/pico_g3_controller"}},
+      {"XR_EXT_hp_mixed_reality_controller", {"hp/mixed_reality_controller"}},
+      {"XR_HTC_vive_cosmos_controller_interaction", {"htc/vive_cosmos_controller"}},
+      {"XR_HTC_vive_focus3_controller_interaction", {"htc/vive_focus3_controller"}},
+      {"XR_ML_ml2_controller_interaction", {"ml/ml2_controller"}},
+      {"XR_EXT_hand_interaction", {"ext/hand_interaction_ext"}},
+      {"XR_MSFT_hand_interaction", {"microsoft/hand_interaction"}}};
+  const auto suggested = [&](const std::vector<std::string>& offered) {
+    xr.start();
+    xr.script.controllers = offered;
+    { const SessionRig rig; }
+    check_no_violations();
+    return xr.record.profiles;
+  };
+  CHECK(suggested({}) == core);
+  std::vector<std::string> all;
+  std::set<std::string> everything = core;
+  for (const auto& [extension, profiles] : extended) {
+    std::set<std::string> wanted = core;
+    for (const std::string& profile : profiles) wanted.insert("/interaction_profiles/" + profile);
+    everything.insert(wanted.begin(), wanted.end());
+    all.push_back(extension);
+    CAPTURE(extension);
+    CHECK(suggested({extension}) == wanted);
+  }
+  CHECK(suggested(all) == everything);
+}
+
+TEST_CASE("a session that is closed while it runs ends as OpenXR asks for") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  {
+    SessionRig rig;
+    REQUIRE(rig.reaches(HeadsetState::focused));
+  }
+  check_no_violations();
+  CHECK(xr.record.calls["xrRequestExitSession"] == 1);
+  CHECK(xr.record.calls["xrEndSession"] == 1);
 }
 
 TEST_CASE("periods that a runtime drops are counted, and no others") {

@@ -9,32 +9,53 @@
 namespace gearshift::xr_test {
 namespace {
 
-// The controllers that the runtime knows, with their inputs as in the OpenXR specification's section "Interaction
-// Profile Paths". The script's inputs are those of the Touch controller.
+// The controllers that the runtime knows, as in the OpenXR registry (xr.xml, interaction_profile): below
+// /interaction_profiles/; the extension that it needs; its inputs on both hands, on the left, and on the right. The
+// script's inputs are those of the Touch controller.
+constexpr std::string_view kProfiles = "/interaction_profiles/";
 constexpr std::string_view kTouch = "/interaction_profiles/oculus/touch_controller";
-struct Input {
-  std::string_view profile;
-  std::string_view hands;  // controllers that have the path: "l", "r" or "lr"
-  std::string_view path;
+struct Controller {
+  std::string_view profile, extension, both, left, right;
 };
-constexpr std::string_view kSimple = "/interaction_profiles/khr/simple_controller";
-constexpr Input kInputs[] = {
-    {kSimple, "lr", "input/select/click"},    {kSimple, "lr", "input/menu/click"},   {kSimple, "lr", "input/aim/pose"},
-    {kSimple, "lr", "input/grip/pose"},       {kTouch, "l", "input/x/click"},        {kTouch, "l", "input/y/click"},
-    {kTouch, "l", "input/menu/click"},        {kTouch, "r", "input/a/click"},        {kTouch, "r", "input/b/click"},
-    {kTouch, "lr", "input/squeeze/value"},    {kTouch, "lr", "input/trigger/value"}, {kTouch, "lr", "input/thumbstick"},
-    {kTouch, "lr", "input/thumbstick/click"}, {kTouch, "lr", "input/grip/pose"},     {kTouch, "lr", "input/aim/pose"},
+// clang-format off
+constexpr Controller kControllers[] = {
+    {"khr/simple_controller", "", "aim/pose grip/pose menu/click select/click", "", ""},
+    {"oculus/touch_controller", "", "aim/pose grip/pose squeeze/value thumbstick thumbstick/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"valve/index_controller", "", "a/click aim/pose b/click grip/pose squeeze/value thumbstick thumbstick/click trackpad trigger/click trigger/value", "", ""},
+    {"htc/vive_controller", "", "aim/pose grip/pose menu/click squeeze/click trackpad trackpad/click trigger/click trigger/value", "", ""},
+    {"microsoft/motion_controller", "", "aim/pose grip/pose menu/click squeeze/click thumbstick thumbstick/click trackpad trackpad/click trigger/value", "", ""},
+    {"facebook/touch_controller_pro", "XR_FB_touch_controller_pro", "aim/pose grip/pose squeeze/value thumbstick thumbstick/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"meta/touch_controller_plus", "XR_META_touch_controller_plus", "aim/pose grip/pose squeeze/value thumbstick thumbstick/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"bytedance/pico_neo3_controller", "XR_BD_controller_interaction", "aim/pose grip/pose menu/click squeeze/click squeeze/value thumbstick thumbstick/click trigger/click trigger/value", "x/click y/click", "a/click b/click"},
+    {"bytedance/pico4_controller", "XR_BD_controller_interaction", "aim/pose grip/pose squeeze/click squeeze/value thumbstick thumbstick/click trigger/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"bytedance/pico_g3_controller", "XR_BD_controller_interaction", "aim/pose grip/pose menu/click thumbstick thumbstick/click trigger/click trigger/value", "", ""},
+    {"hp/mixed_reality_controller", "XR_EXT_hp_mixed_reality_controller", "aim/pose grip/pose menu/click squeeze/value thumbstick thumbstick/click trigger/value", "x/click y/click", "a/click b/click"},
+    {"htc/vive_cosmos_controller", "XR_HTC_vive_cosmos_controller_interaction", "aim/pose grip/pose squeeze/click thumbstick thumbstick/click trigger/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"htc/vive_focus3_controller", "XR_HTC_vive_focus3_controller_interaction", "aim/pose grip/pose squeeze/click squeeze/value thumbstick thumbstick/click trigger/click trigger/value", "menu/click x/click y/click", "a/click b/click"},
+    {"ml/ml2_controller", "XR_ML_ml2_controller_interaction", "aim/pose grip/pose menu/click trackpad trackpad/click trigger/click trigger/value", "", ""},
+    {"ext/hand_interaction_ext", "XR_EXT_hand_interaction", "aim/pose aim_activate_ext/value grasp_ext/value grip/pose pinch_ext/value", "", ""},
+    {"microsoft/hand_interaction", "XR_MSFT_hand_interaction", "aim/pose grip/pose select/value squeeze/value", "", ""},
 };
+// clang-format on
+
+// Null if the runtime does not know the profile.
+const Controller* controller_of(std::string_view profile) {
+  const auto* const found = std::find_if(std::begin(kControllers), std::end(kControllers), [&](const Controller& one) {
+    return profile.starts_with(kProfiles) && profile.substr(kProfiles.size()) == one.profile;
+  });
+  return found == std::end(kControllers) ? nullptr : found;
+}
 
 // True if the controller has this input.
-bool has_input(std::string_view profile, std::string_view path) {
-  const std::string_view left = "/user/hand/left/", right = "/user/hand/right/";
+bool has_input(const Controller& controller, std::string_view path) {
+  const std::string_view left = "/user/hand/left/input/", right = "/user/hand/right/input/";
   const bool is_left = path.starts_with(left);
   if (!is_left && !path.starts_with(right)) return false;
-  const std::string_view part = path.substr(is_left ? left.size() : right.size());
-  return std::any_of(std::begin(kInputs), std::end(kInputs), [&](const Input& one) {
-    return one.profile == profile && one.path == part && one.hands.find(is_left ? 'l' : 'r') != std::string_view::npos;
-  });
+  const auto lists = [&](std::string_view inputs) {
+    const std::string part = std::string(path.substr(is_left ? left.size() : right.size())) + ' ';
+    return (' ' + std::string(inputs) + ' ').find(' ' + part) != std::string::npos;
+  };
+  return lists(controller.both) || lists(is_left ? controller.left : controller.right);
 }
 
 // True if the text is one or several parts of a path: lower-case letters, digits, and - _ . but not only dots.
@@ -129,13 +150,19 @@ XrResult XRAPI_CALL xr::SuggestInteractionProfileBindings(XrInstance instance,
                                                           const XrInteractionProfileSuggestedBinding* info) {
   return call("xrSuggestInteractionProfileBindings", [&](State&) {
     const std::string& profile = path_string(instance, info->interactionProfile);
-    if (profile != kSimple && profile != kTouch) return XR_ERROR_PATH_UNSUPPORTED;  // the specification allows this
+    const Controller* const controller = controller_of(profile);
+    if (controller == nullptr) return XR_ERROR_PATH_UNSUPPORTED;  // the specification allows this
+    const std::vector<std::string>& enabled = live(instance).extensions;
+    require(controller->extension.empty() ||
+                std::find(enabled.begin(), enabled.end(), controller->extension) != enabled.end(),
+            "binding_path", profile + " needs its extension");
     const std::span bindings(info->suggestedBindings, info->countSuggestedBindings);
     for (const XrActionSuggestedBinding& one : bindings) {
       require(!live(live(one.action).parent).attached, "attach_order");
       const std::string& path = path_string(instance, one.binding);
-      require(has_input(profile, path), "binding_path", path);
+      require(has_input(*controller, path), "binding_path", profile + " " + path);
     }
+    state().control.record.profiles.insert(profile);
     live(instance).suggestions[profile].assign(bindings.begin(), bindings.end());
     return XR_SUCCESS;
   });

@@ -1,5 +1,6 @@
 // Code that runs in every OpenXR function: rules, injected failures, the log; the functions that the OpenXR loader gets.
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -115,6 +116,8 @@ std::optional<XrResult> injected_failure(const char* function) {
     if (failure->function != function || --failure->nth > 0) continue;
     const XrResult result = failure->result;
     failures.erase(failure);
+    if (state().control.script.prints)
+      for (int i = 0; i < 8; ++i) std::fprintf(stderr, "ERROR [ipc_client_connect] Failed to connect to socket!\n");
     log_line(std::string("planted ") + function + " " + std::to_string(result));
     return result;
   }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -63,7 +64,9 @@ struct Event {
     exit,  // the user closed the program: states STOPPING, IDLE, EXITING
     space_change,
     hidden,  // shouldRender is false for a while, in any state
-    stall,   // xrWaitFrame blocks for some display periods, so that frames are dropped
+    absent,  // with `user_presence`: nobody wears the headset; the session's state stays
+    present,
+    stall,  // xrWaitFrame blocks for some display periods, so that frames are dropped
   };
   double at = 0.0;  // [s] on Script's clock
   Kind kind = Kind::focused;
@@ -102,6 +105,8 @@ struct Gap {                       // An interruption of head tracking, without 
 struct Script {
   bool headset = true;  // false: xrGetSystem returns XR_ERROR_FORM_FACTOR_UNAVAILABLE
   bool vulkan_enable2 = true, composition_layer_depth = true, convert_timespec_time = true;  // offered extensions
+  std::vector<std::string> controllers{};  // extensions of controllers that are offered
+  bool user_presence = false;              // offers XR_EXT_user_presence
   bool stage = true;
   Pose stage_origin{.position = {0.0, -1.2, 0.0}};                  // in the initial LOCAL space
   std::uint32_t recommended_width = 320, recommended_height = 240;  // [px] per eye
@@ -120,6 +125,7 @@ struct Script {
   std::vector<Event> timeline{};
   std::vector<Failure> failures{};
   std::vector<Hang> hangs{};
+  bool prints = false;    // each injected failure prints lines to stderr, as client libraries do
   int capture_every = 0;  // records the pixels of every n-th frame; 0: of none. Other data is always recorded.
 };
 
@@ -177,6 +183,7 @@ struct Record {
   std::vector<std::string> violations{};  // one line each
   int leaks = 0;                          // handles destroyed with their parent, not by a call
   int live_handles = 0;                   // of all kinds
+  std::set<std::string> profiles{};       // for which bindings were suggested and accepted
   std::map<std::string, int> calls{};
   std::uint64_t dropped = 0;  // number of display periods without a new frame
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;

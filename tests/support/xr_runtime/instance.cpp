@@ -25,6 +25,8 @@ std::vector<const char*> offered(const Script& script) {
   if (script.vulkan_enable2) names.push_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
   if (script.composition_layer_depth) names.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (script.convert_timespec_time) names.push_back(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
+  for (const std::string& name : script.controllers) names.push_back(name.c_str());
+  if (script.user_presence) names.push_back("XR_EXT_user_presence");
   return names;
 }
 
@@ -62,7 +64,8 @@ XrResult XRAPI_CALL xr::CreateInstance(const XrInstanceCreateInfo* info, XrInsta
       const std::string_view wanted = info->enabledExtensionNames[i];
       if (std::find(names.begin(), names.end(), wanted) == names.end()) return XR_ERROR_EXTENSION_NOT_PRESENT;
     }
-    *instance = add<XrInstance>({});
+    *instance = add<XrInstance>(
+        {.extensions = {info->enabledExtensionNames, info->enabledExtensionNames + info->enabledExtensionCount}});
     return XR_SUCCESS;
   });
 }

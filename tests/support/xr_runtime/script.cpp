@@ -138,9 +138,9 @@ void read_input(TableReader& table, Script& script) {
 }
 
 void read_event(TableReader& table, Script& script) {
-  static constexpr std::string_view kKinds[] = {"focused",      "visible",      "synchronized",  "stopping",
-                                                "ready",        "loss_pending", "instance_loss", "exit",
-                                                "space_change", "hidden",       "stall"};  // as in Event::Kind
+  static constexpr std::string_view kKinds[] = {
+      "focused", "visible",      "synchronized", "stopping", "ready",   "loss_pending", "instance_loss",
+      "exit",    "space_change", "hidden",       "absent",   "present", "stall"};  // as in Event::Kind
   Event event;
   std::string what, space = "local";
   table.read("at", event.at);
@@ -187,6 +187,8 @@ Script read_script(const char* file) {
   TableReader table(root);
   Script script;
   table.read("headset", script.headset);
+  table.read("prints", script.prints);
+  table.read("user_presence", script.user_presence);
   table.for_each("stage_origin", [&](TableReader& one) { script.stage_origin = read_pose(one); });
   if (const std::vector<double> size = table.numbers("recommended"); size.size() == 2) {
     script.recommended_width = static_cast<std::uint32_t>(size[0]);

@@ -28,6 +28,20 @@ void change_origin(State& s, XrSession handle, const Event& event) {
   push_event(s, pending);
 }
 
+// XR_EXT_user_presence; the numbers are those of the registry, because Debian 12's headers lack it.
+void tell_presence(State& s, XrSession handle, bool is_present) {
+  if (!s.control.script.user_presence) return;
+  struct {
+    XrStructureType type = static_cast<XrStructureType>(1000470000);
+    const void* next = nullptr;
+    XrSession session = XR_NULL_HANDLE;
+    XrBool32 is_present = XR_FALSE;
+  } event;
+  event.session = handle;
+  event.is_present = is_present ? XR_TRUE : XR_FALSE;
+  push_event(s, event);
+}
+
 void lose_instance(State& s) {
   s.all<XrInstance>().begin()->second.lost = true;
   XrEventDataInstanceLossPending loss{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING};
@@ -66,6 +80,9 @@ void play_for_session(State& s, const Event& event, XrSession handle, Object<XrS
       set_state(s, handle, XR_SESSION_STATE_LOSS_PENDING);
       session.lost = true;
       return;
+    case Event::Kind::absent:
+    case Event::Kind::present:
+      return tell_presence(s, handle, event.kind == Event::Kind::present);
     case Event::Kind::space_change:
       return change_origin(s, handle, event);
     default:
@@ -188,6 +205,15 @@ XrResult XRAPI_CALL xr::DestroySession(XrSession session) {
   return call("xrDestroySession", [&](State& s) {
     drop_session(session);
     s.events.clear();
+  });
+}
+
+XrResult XRAPI_CALL xr::RequestExitSession(XrSession session) {
+  return call("xrRequestExitSession", [&](State& s) {
+    Object<XrSession>& object = live(session);
+    require(object.running, "session_state");
+    object.exit_requested = object.stop_requested = true;
+    advance_state(s, session);
   });
 }
 

@@ -27,7 +27,7 @@
 #define GEARSHIFT_XR_FUNCTIONS(_)                                                                                      \
   _(EnumerateInstanceExtensionProperties) _(CreateInstance) _(DestroyInstance) _(GetInstanceProperties) _(PollEvent)   \
   _(GetSystem) _(GetSystemProperties) _(EnumerateEnvironmentBlendModes) _(EnumerateViewConfigurationViews)             \
-  _(CreateSession) _(DestroySession) _(EnumerateReferenceSpaces) _(CreateReferenceSpace) _(CreateActionSpace)          \
+  _(CreateSession) _(DestroySession) _(RequestExitSession) _(EnumerateReferenceSpaces) _(CreateReferenceSpace) _(CreateActionSpace)          \
   _(LocateSpace) _(DestroySpace) _(EnumerateSwapchainFormats) _(CreateSwapchain) _(DestroySwapchain)                   \
   _(EnumerateSwapchainImages) _(AcquireSwapchainImage) _(WaitSwapchainImage) _(ReleaseSwapchainImage) _(BeginSession)  \
   _(EndSession) _(WaitFrame) _(BeginFrame) _(EndFrame) _(LocateViews) _(StringToPath) _(CreateActionSet)               \
@@ -73,6 +73,7 @@ template <>
 struct Object<XrInstance> {
   std::vector<std::string> paths{};                                            // XrPath: index in this list, plus one
   std::map<std::string, std::vector<XrActionSuggestedBinding>> suggestions{};  // by interaction profile
+  std::vector<std::string> extensions{};                                       // enabled
   bool requirements_queried = false;
   bool lost = false;
 };

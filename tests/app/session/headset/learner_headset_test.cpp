@@ -71,13 +71,19 @@ std::string failure(LearnerHeadset& headset) {
   return message;
 }
 
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
+
 struct Worn {
-  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true, bool tells_place = true)
+  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true, bool tells_place = true, bool tells_presence = false)
       : window(320, 200, "worn"), setup(std::move(wanted)), placed(tells_place) {
     choose_software_driver();
     xr_test::Control& xr = xr_test::control();
     xr.start();
     xr.script.stage = stage_space;
+    xr.script.user_presence = tells_presence;
     xr.script.stage_origin = {};  // the spaces LOCAL and STAGE coincide
     xr.script.recommended_width = 32;
     xr.script.recommended_height = 32;
@@ -396,6 +402,33 @@ TEST_CASE("the seat is set only while frames are shown: a headset lying on a tab
   check_sits(worn, driver_eye());
 }
 
+// Monado and WiVRn keep the session for a while: it is only not visible, or XR_EXT_user_presence tells.
+TEST_CASE("a headset taken off is noticed while its session lasts, said once, and back on the head the seat is right") {
+  for (const bool tells : {false, true}) {
+    CAPTURE(tells);
+    Worn worn({}, true, true, tells);
+    xr_test::Control& xr = xr_test::control();
+    xr.script.pacing = xr_test::Pacing::real;
+    const auto play = [&](Kind kind, double seconds) {
+      xr.script.timeline = {xr_test::Event{xr.record.frames.back().time, kind}};
+      for (const Clock::time_point begun = Clock::now(); seconds_since(begun) < seconds;) worn.frame();
+    };
+    play(Kind::present, 0.2);
+    check_sits(worn, driver_eye());
+    play(tells ? Kind::absent : Kind::synchronized, 3.3);
+    CHECK(worn.headset->take_message() == "the headset was taken off, so the desktop shows the cabin");
+    worn.head.position += dvec3(0.3, 0.0, 0.2);  // the next user sits elsewhere
+    play(tells ? Kind::present : Kind::focused, 1.0);
+    check_sits(worn, driver_eye());
+    CHECK(worn.headset->take_message().empty());
+    play(Kind::synchronized, 0.5);  // another program is shown for a moment
+    worn.head.position += dvec3(0.1, 0.0, 0.0);
+    play(Kind::focused, 1.5);
+    CHECK(glm::distance(worn.headset->head().position, driver_eye()) > 0.09);
+    CHECK(worn.headset->take_message().empty());
+  }
+}
+
 TEST_CASE(
     "without position tracking the user is at the wheel; once it works, at the wheel or, if touched, at the lever") {
   HeadsetSetup setup;
@@ -483,11 +516,6 @@ TEST_CASE("the controller points at the learner's card, and its menu button open
 }
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begun) {
-  return std::chrono::duration<double>(Clock::now() - begun).count();
-}
 
 // [s] The longest of some turns, which end when `until` holds, or after 8 s.
 template <class Until>
@@ -591,4 +619,18 @@ TEST_CASE("a lost headset is reported once, searched for, and reopened when it i
     worn.frame();
     CHECK(worn.headset->is_open());
   }
+}
+
+TEST_CASE("a key opens the whole panel, too, and a headset without a known controller says so") {
+  Worn worn;
+  CHECK(worn.headset->report().has_controller);
+  CHECK_FALSE(worn.headset->take_opened());
+  worn.headset->toggle_panel();
+  CHECK(worn.headset->take_opened());
+  worn.frame();
+  CHECK(xr_test::control().record.frames.back().quad()->width == doctest::Approx(1.5));
+  worn.headset->toggle_panel();
+  worn.frame();
+  CHECK(xr_test::control().record.frames.back().quad()->width == doctest::Approx(0.75));
+  CHECK_FALSE(worn.headset->take_opened());
 }

@@ -7,7 +7,7 @@
 
 namespace gearshift::runtime {
 
-class ForceWatch {
+class ControlsWatch {
  public:
   // [ns] Longest time without a read of the controls while a real stick has forces.
   static constexpr std::int64_t kLongestLapse = 200'000'000;
@@ -29,7 +29,7 @@ class ForceWatch {
 class WatchedForces {
  public:
   // Call before the first cycle. `watch`: null: none; must outlive this object.
-  void follow(ForceWatch* watch, bool is_real) noexcept {
+  void follow(ControlsWatch* watch, bool is_real) noexcept {
     watch_ = watch;
     is_real_ = is_real;
     if (watch_ != nullptr) stops_ = watch_->stops_.load(std::memory_order_relaxed);
@@ -40,7 +40,7 @@ class WatchedForces {
     if (watch_ == nullptr) return false;
     const std::uint64_t stops = watch_->stops_.load(std::memory_order_relaxed);
     const std::int64_t read_ns = watch_->read_ns_.load(std::memory_order_relaxed);
-    const bool lapses = is_real_ && has_forces && read_ns != 0 && now_ns - read_ns > ForceWatch::kLongestLapse;
+    const bool lapses = is_real_ && has_forces && read_ns != 0 && now_ns - read_ns > ControlsWatch::kLongestLapse;
     if (lapses) watch_->lapsed_.store(true, std::memory_order_relaxed);
     const bool is_stop = stops != stops_;
     stops_ = stops;
@@ -48,7 +48,7 @@ class WatchedForces {
   }
 
  private:
-  ForceWatch* watch_ = nullptr;
+  ControlsWatch* watch_ = nullptr;
   bool is_real_ = false;
   std::uint64_t stops_ = 0;
 };
