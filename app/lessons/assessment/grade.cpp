@@ -91,7 +91,7 @@ double limb_error(const LessonResult& result, const Norm* norm, bool of_lever) n
       result, of_lever ? is_of_lever : [](ErrorKind kind) { return !is_of_lever(kind); });
   const bool is_judged = norm != nullptr && result.score;
   const double score = is_judged ? limb_distance(result, *norm, of_lever) / norm->limit : 0.0;
-  return std::min(1.0, std::max(points, kBestGrade - grade_by_score(score, kUsualPassGrade)) / kBestGrade);
+  return std::min(1.0, std::max(points, kUsualPassGrade - grade_by_score(score, kUsualPassGrade)) / kBestGrade);
 }
 
 double rounded_down(double grade) noexcept {

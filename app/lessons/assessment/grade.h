@@ -40,7 +40,7 @@ bool is_graded(const LessonResult& result) noexcept;
 double run_error(const LessonResult& result) noexcept;
 
 // The same for the hand and for the feet only: the points for their errors, or an error that grows with the distance of
-// their figures from the norm's, if `norm` (may be null) judged the run. An unfinished run has only its points.
+// their figures beyond the norm's limit, if `norm` (may be null) judged the run. An unfinished run has only its points.
 double lever_error(const LessonResult& result, const Norm* norm) noexcept;
 double pedal_error(const LessonResult& result, const Norm* norm) noexcept;
 

@@ -250,12 +250,14 @@ TEST_CASE("the error of a limb grows with the distance of its own figures") {
   result.score = 1.0;
   result.slip_energy = 500.0;
   result.figures.path_efficiency = 1.1 * 1.1 * 1.1;  // two standard deviations: twice the limit, half the grade of 6
-  CHECK(lever_error(result, &norm) == doctest::Approx(0.7));
+  CHECK(lever_error(result, &norm) == doctest::Approx(0.3));
   CHECK(pedal_error(result, &norm) == 0.0);
   result.slip_energy = 2000.0;
   result.figures.path_efficiency = 1.0;
   CHECK(lever_error(result, &norm) == 0.0);
-  CHECK(pedal_error(result, &norm) == doctest::Approx(0.7));
+  CHECK(pedal_error(result, &norm) == doctest::Approx(0.3));
+  result.slip_energy = 1000.0;  // at the limit: no error yet
+  CHECK(pedal_error(result, &norm) == 0.0);
   result.score.reset();  // another car: the norm did not judge this run
   CHECK(pedal_error(result, &norm) == 0.0);
 }
