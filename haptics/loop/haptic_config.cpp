@@ -19,8 +19,10 @@ namespace {
 
 // These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see
 // haptics/loop/README.md.
-constexpr double kQuiet = 0.25;           // [1] sampled holds: limit of stiffness*lag^2/mass
-constexpr double kQuietDamping = 0.35;    // [1] the same of damping*lag/mass, and of a device's springs under the hold
+constexpr double kQuiet = 0.25;         // [1] sampled holds: limit of stiffness*lag^2/mass
+constexpr double kQuietDamping = 0.35;  // [1] the same of damping*lag/mass
+constexpr double kSlowSpring = 0.35;    // [1] ... and of the stiffness of a device's springs under the half-sample hold
+constexpr double kSlowSpringHeld = 0.15;  // [1] ... and under the zero-order hold
 constexpr double kQuietObserved = 0.58;   // [1] observer hold: limit of stiffness*lag^2/mass
 constexpr double kQuietOnSpring = 0.5;    // [1] replaces kQuietObserved on a device's springs of more than m / tau^2
 constexpr double kObservedTau = 0.0125;   // [s] longest lag at which the observer hold is preferred
@@ -61,6 +63,10 @@ constexpr const char* kSpringLaw =
 constexpr const char* kSpringDampingLaw =
     "on the device's springs k, the late half-sample hold adds energy to an impact if k tau^2 > 0.35 m, with tau = "
     "(delay + 1) T";
+constexpr const char* kHeldSpringLaw =
+    "on the device's springs k, the late zero-order hold adds energy to an impact if k tau^2 > 0.15 m, with tau = "
+    "(delay "
+    "+ 1) T";
 constexpr const char* kSwingLaw =
     "with the observer hold, a swing above 10 Hz must shrink to a third in seven half-swings at 1.1 K, or the reversal "
     "limiter softens the wall";
@@ -121,11 +127,15 @@ bool can_observe(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return observer_bandwidth(period_s(config)) * spec.position_step <= kMaxCountSpeed;
 }
 
-// True if a bare lever on the device's springs swings so fast that the half-sample hold pushes it out of the wall: its
-// late damper acts mostly while the lever leaves.
+// True if a bare lever on the device's springs swings so fast that a sampled hold pushes it out of the wall: its late damper
+// acts mostly while the lever leaves.
 bool is_on_fast_spring(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   const double tau = lag(config, spec);
-  return usable_wall_stiffness(spec) * tau * tau > kQuietDamping * lighter_mass(spec);
+  const double slow = config.contact.hold == ContactHold::zero_order ? kSlowSpringHeld : kSlowSpring;
+  return usable_wall_stiffness(spec) * tau * tau > slow * lighter_mass(spec);
+}
+const char* fast_spring_law(ContactHold hold) noexcept {
+  return hold == ContactHold::zero_order ? kHeldSpringLaw : kSpringDampingLaw;
 }
 
 // Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the rate or the device's
@@ -310,14 +320,14 @@ void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpe
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
   limiter.limit(admitted.tuning.wall_damping, damping, &HapticTuning::wall_damping, kFreeLaw);
   if (is_on_fast_spring(config, spec))
-    limiter.limit(admitted.tuning.wall_damping, 0.0, &HapticTuning::wall_damping, kSpringDampingLaw);
+    limiter.limit(admitted.tuning.wall_damping, 0.0, &HapticTuning::wall_damping, fast_spring_law(admitted.hold));
 }
 
 // Leaves the wall to the device's springs where the half-sample hold would add energy on them.
 void limit_to_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                            const Limiter& limiter) {
   if (admitted.hold == ContactHold::observer || !is_on_fast_spring(config, spec)) return;
-  limiter.limit(admitted.tuning.wall_stiffness, 0.0, &HapticTuning::wall_stiffness, kSpringDampingLaw);
+  limiter.limit(admitted.tuning.wall_stiffness, 0.0, &HapticTuning::wall_stiffness, fast_spring_law(admitted.hold));
 }
 
 struct StableStiffness {
@@ -419,13 +429,6 @@ void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter pa
   limit->bound += device_part;
   limit->law += "; the device itself renders another " + number_text(device_part) + unit;
   if (limit->bound >= wanted) admitted.limits.erase(limit);
-}
-
-// True if the observer hold, which was to be stiffer than the half-sample hold, is not.
-bool is_softer_than_half_sample(const HapticConfig& config, const DeviceSpec& spec, const AdmittedTuning& admitted) {
-  const double tau = lag(config, spec);
-  return admitted.hold == ContactHold::observer && !is_on_fast_spring(config, spec) &&
-         admitted.tuning.wall_stiffness < kQuiet * lighter_mass(spec) / (tau * tau);
 }
 
 // Admits the tuning with the half-sample hold. Used if the observer hold is selected, but cannot be used on this device
@@ -544,8 +547,6 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   }
   limiter.limit(out.tuning.wall_stiffness, stable.max, &HapticTuning::wall_stiffness, kStableLaw, stable.hand);
   limit_swing(config, spec, wall, out, limiter);
-  if (config.contact.hold == ContactHold::automatic && is_softer_than_half_sample(config, spec, out))
-    return fall_back_to_half_sample(config, device, feel_stiffness, kSwingLaw, kHeaviestHand.name);
   limit_feel(config, spec, feel_stiffness, wall, out, limiter);
   limit_to_device_walls(config, spec, out, limiter);
   add_device_part(out, out.tuning.wall_stiffness, &HapticTuning::wall_stiffness, config.tuning.wall_stiffness,

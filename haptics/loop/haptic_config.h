@@ -167,8 +167,8 @@ void check_device(const DeviceSpec& spec);
 //              (zero-order hold: and (2 delay + 1) T more), or an impact gains energy: B is raised, and K limited where B
 //              cannot be. Above tau = 15 ms an impact gains energy anyway, which is reported. The factors were compared
 //              with their neighbours over hands, impact phases, quantisation, jitter and plant error. On device springs k
-//              > 0.35 m / tau^2 the half-sample hold would add energy: the observer hold replaces it, or the springs
-//              render the whole wall.
+//              > 0.35 m / tau^2 (zero-order hold: 0.15) a sampled hold would add energy: the observer hold replaces it, or
+//              the springs render the whole wall.
 //   resolution One encoder count q changes a damping force by at most 3 N (B q / T), and a wall stops a lever of 0.1 m/s
 //              within 3 counts or more. If a count changes the observed velocity by more than 0.125 m/s, the half-sample
 //              hold replaces the observer, with K <= 0.2 m / tau^2.

@@ -557,6 +557,10 @@ TEST_CASE(
     CHECK(none.tuning.wall_stiffness == doctest::Approx(fast));
     CHECK(none.tuning.wall_damping == 0.0);
     CHECK(limits_text(none).find("if k tau^2 > 0.35 m") != std::string::npos);
+    const AdmittedTuning held =
+        admitted_with_device_walls(0.16 * unit, 0.16 * unit + rest, delay, ContactHold::zero_order);
+    CHECK(held.tuning.wall_stiffness == doctest::Approx(0.16 * unit));
+    CHECK(limits_text(held).find("if k tau^2 > 0.15 m") != std::string::npos);
   }
 }
 

@@ -434,6 +434,7 @@ TEST_CASE(
     config.haptics.contact = {ContactHold::observer, EnergyControl::none, false, true};
     const std::vector<double> turns = turning_points(config);
     REQUIRE(turns.size() > 8);
-    CHECK(turns[8] / turns[1] == doctest::Approx(1.0 / 3.0).epsilon(0.1));
+    CHECK(turns[8] / turns[1] <= 1.0 / 3.0);
+    CHECK(turns[8] / turns[1] >= 0.9 / 3.0);  // the wall could not be much stiffer
   }
 }
