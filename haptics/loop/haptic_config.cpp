@@ -43,7 +43,7 @@ constexpr double kSwingDecay = 1.0 / 3.0;  // [1] ... and must shrink to this fr
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kZeroOrderLaw =
     "the zero-order hold is quiet only if K <= 0.25 m / tau^2, with tau = (delay + 1) T";
-constexpr const char* kLeastDampingLaw =
+constexpr const char* kMinDampingLaw =
     "an impact gains energy from the encoder's count q and the delay unless B >= K (q / (0.08 m/s) + 0.1 tau), with "
     "tau "
     "= (delay + 1) T";
@@ -225,7 +225,7 @@ double least_damping_time(const HapticConfig& config, const DeviceSpec& spec, Co
 }
 
 const char* least_damping_law(ContactHold hold) noexcept {
-  return hold == ContactHold::zero_order ? kZeroOrderDampingLaw : kLeastDampingLaw;
+  return hold == ContactHold::zero_order ? kZeroOrderDampingLaw : kMinDampingLaw;
 }
 
 // Raises the damping of a sampled hold to what the loop's stiffness needs, as far as the laws above allow. Returns it, also
