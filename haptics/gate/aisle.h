@@ -15,7 +15,7 @@
 namespace gearshift::haptics {
 
 // [1] as fractions of a place's radius: where its lockout stands, and where a lever that may not leave it is stopped.
-inline constexpr double kClosedRadius = 0.75;
+inline constexpr double kClosedRadius = 0.85;
 inline constexpr double kHeldRadius = 0.5;
 
 inline constexpr double kOnLine = 1e-4;  // [m] a point this close to a centre line is on it

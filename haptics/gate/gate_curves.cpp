@@ -53,7 +53,7 @@ std::vector<FeelKnot> centring_knots(double force, double width) {
 }
 
 std::vector<FeelKnot> place_knots(double radius, double lock_force, double detent_force) {
-  const double crest = 0.7 * radius, lock = 0.35 * radius;  // distances from the place
+  const double crest = (1.0 - kPlaceEngage) * radius, lock = 0.4 * radius;  // distances from the place
   return {{0.0, 0.0, 0.0},
           {radius - crest, -detent_force, 0.0},
           {radius - lock, lock_force, 0.0},

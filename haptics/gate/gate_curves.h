@@ -27,7 +27,7 @@ SlotStations slot_stations(const GateLayout& layout);
 // Largest radius [m] that a place of a mechanism gets by itself, and the depths in it, as fractions of its radius, at
 // which it counts and is released.
 inline constexpr double kPlaceRadius = 0.012;
-inline constexpr double kPlaceEngage = 0.3, kPlaceRelease = 0.15;
+inline constexpr double kPlaceEngage = 0.2, kPlaceRelease = 0.1;
 
 // Knots of a place's Slot::feel against the depth in it.
 std::vector<FeelKnot> place_knots(double radius, double lock_force, double detent_force);

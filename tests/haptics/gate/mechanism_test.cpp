@@ -121,7 +121,7 @@ TEST_CASE("a tee has one junction with a closed side, three wall pairs, and wall
   CHECK(closed == Approx(0.010));  // opposite the stem, as wide as it
 }
 
-TEST_CASE("a place counts within 0.7 of its radius and is released beyond 0.85 of it") {
+TEST_CASE("a place counts within 0.8 of its radius and is released beyond 0.9 of it") {
   const Gate gate = compiled(kTee + place("A", 30, 0, "radius_mm = 10\n"));
   const int position = slot_of(gate, 1).gear;
   CHECK(std::string(gear_label(gate, position)) == "A");
@@ -131,10 +131,10 @@ TEST_CASE("a place counts within 0.7 of its radius and is released beyond 0.85 o
     for (int i = 0; i < 3; ++i) (void)selector.update(gate, {0.030 - off, 0.0}, 0.001);
     return selector.gear();
   };
-  CHECK(at(0.0071) == kNeutralGear);
-  CHECK(at(0.0069) == position);
-  CHECK(at(0.0084) == position);
-  CHECK(at(0.0086) == kNeutralGear);
+  CHECK(at(0.0081) == kNeutralGear);
+  CHECK(at(0.0079) == position);
+  CHECK(at(0.0089) == position);
+  CHECK(at(0.0091) == kNeutralGear);
 }
 
 TEST_CASE("the spring of an aisle pulls to its point with the force of the file, and not where aisles meet") {
@@ -157,7 +157,7 @@ TEST_CASE("in a cross gate the return force points to the middle from everywhere
 
 TEST_CASE("the selector's P is left, and R entered, only with the button") {
   const Gate gate = shipped_gate("selector_p_r_n_d");
-  const dvec2 in_p{-0.024, 0.042}, between{-0.024, 0.029}, in_r{-0.024, 0.016};
+  const dvec2 in_p{-0.026, 0.045}, between{-0.026, 0.030}, in_r{-0.026, 0.016};
   Lockouts lockouts;
   LockoutInputs in;
   in.gear = slot_of(gate, 0).gear;
