@@ -107,7 +107,7 @@ for i in $(seq $losses); do
   check "$i. found" soon 30 warned "$found" $i
   check "$i. lost" soon 30 warned "$lost" $i
   drawn=$(frames) shifts=$(engaged)
-  within 4 shows_desktop && cabin_shown=$((cabin_shown + 1)) # may fail, because the cabin is shown only briefly
+  within 8 shows_desktop && cabin_shown=$((cabin_shown + 1)) # may fail, because the cabin is shown only briefly
   check "$i. found again" soon 30 warned "$found" $((i + 1))
   # After at least two more frames (more than drawn + 1) the program is in a steady state.
   check "$i. and shown again" soon 20 has_more_frames $((drawn + 1))

@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr float kLateMargin = 0.1f;
 constexpr std::chrono::milliseconds kCallTimeout(50);    // longest wait for the runtime
 constexpr std::chrono::milliseconds kHeldTimeout(5);     // the same while it has already been waited for in vain
+constexpr std::chrono::milliseconds kQueueTimeout(400);  // longest wait for the queue at the end
 constexpr std::chrono::milliseconds kCloseTimeout(600);  // longest wait for the end of the session
 constexpr std::chrono::seconds kLostAfter(5);            // see HeadsetView::begin()
 
@@ -146,7 +147,7 @@ struct HeadsetView::State {
     // A runtime that is stuck in a call that may use the queue does not let go of it; then nothing is submitted to it
     // any more either.
     std::unique_lock lock(parts.gpu.queue_mutex(), std::defer_lock);
-    const Clock::time_point end = Clock::now() + kCallTimeout;
+    const Clock::time_point end = Clock::now() + kQueueTimeout;
     while (!lock.try_lock() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     parts.gpu.wait_idle();
     headset->state_->hangs = is_held;
