@@ -1,9 +1,25 @@
-// SQL that turns an empty or filled history of version 3 into one of version 1.
+// SQL that turns an empty or filled history of the newest version into one of version 1.
 #pragma once
 
 namespace gearshift::test {
 
 inline constexpr const char* kToHistoryVersion1 =
+    "DROP TRIGGER learner_insert;"
+    "DROP TRIGGER learner_update;"
+    "DROP TRIGGER learner_delete;"
+    "DROP TRIGGER session_insert;"
+    "DROP TRIGGER lesson_run_insert;"
+    "DROP TRIGGER lesson_run_update;"
+    "DROP TRIGGER shift_insert;"
+    "DROP TRIGGER driving_error_insert;"
+    "DROP TRIGGER comment_insert;"
+    "DROP TRIGGER comment_update;"
+    "DROP TRIGGER comment_delete;"
+    "DROP TABLE server_learner;"
+    "DROP TABLE server;"
+    "DROP TABLE unsent;"
+    "DROP TABLE last_number;"
+    "ALTER TABLE lesson_run DROP COLUMN kept_at;"
     "ALTER TABLE driving_error DROP COLUMN speed_unit;"
     "ALTER TABLE lesson_run DROP COLUMN jerk_peak_m_per_s3;"
     "ALTER TABLE lesson_run DROP COLUMN rev_error_rad_per_s;"

@@ -58,6 +58,7 @@ struct RunRow {
   std::string recording;               // trace file, relative to the history's folder if inside it; may be empty
   LessonResult result;                 // with driving errors and shifts; all numbers are finite even in a damaged file
   std::vector<CommentRow> comments{};  // by the instructor, oldest first
+  std::string kept_at{};  // where the recording is if another seat has it: "HOST:/folder/file"; may be empty
 };
 
 // True if the run was driven to its end, whatever the result. Runs that the learner left or that never ended count
@@ -139,6 +140,7 @@ class History {
   const std::filesystem::path& file() const noexcept;
 
  private:
+  friend class Exchange;
   struct State;
   std::unique_ptr<State> state_;
 };

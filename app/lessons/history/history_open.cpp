@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <system_error>
 #include <vector>
 
@@ -198,12 +197,18 @@ void History::State::upgrade() {
   if (version == 0)
     database->exec(schema());
   else
-    for (const char* script : std::span(kUpgrades).subspan(static_cast<std::size_t>(version - 1)))
-      database->exec(script);
-  if (version == 1) join_equal_learners();
+    run_scripts(version);
   database->exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   transaction.commit();
+}
+
+void History::State::run_scripts(int version) {
+  const auto scripts = upgrades();
+  for (std::size_t i = static_cast<std::size_t>(version - 1); i < scripts.size(); ++i) {
+    database->exec(scripts[i]);
+    if (i == 0) join_equal_learners();
+  }
 }
 
 // Version 1 compared names byte by byte, so one name in two forms was two learners. Gives their sessions to the older
@@ -219,15 +224,7 @@ void History::State::join_equal_learners() {
       kept.push_back(row);
       continue;
     }
-    for (const char* text : {"UPDATE session SET learner = ?1 WHERE learner = ?2",
-                             "UPDATE learner SET next_lesson = (SELECT next_lesson FROM learner WHERE id = ?2) "
-                             "WHERE id = ?1 AND next_lesson = ''",
-                             "DELETE FROM learner WHERE id = ?2 AND ?1 > 0"}) {
-      SQLite::Statement statement = query(text);
-      statement.bind(1, same->id);
-      statement.bind(2, row.id);
-      statement.exec();
-    }
+    join_learners(same->id, row.id);
     joined += (joined.empty() ? "" : ", ") + haptics::printable(row.name);
   }
   for (const LearnerRow& row : kept) {
@@ -239,6 +236,19 @@ void History::State::join_equal_learners() {
   if (!joined.empty())
     upgrade_note = fmt::format("{}: learners whose names look the same were joined, with all their runs: {}",
                                file.string(), joined);
+}
+
+// Gives the sessions and the next lesson of the learner `other` to the learner `kept`, and deletes `other`.
+void History::State::join_learners(std::int64_t kept, std::int64_t other) {
+  for (const char* text : {"UPDATE session SET learner = ?1 WHERE learner = ?2",
+                           "UPDATE learner SET next_lesson = (SELECT next_lesson FROM learner WHERE id = ?2) "
+                           "WHERE id = ?1 AND next_lesson = ''",
+                           "DELETE FROM learner WHERE id = ?2 AND ?1 > 0"}) {
+    SQLite::Statement statement = query(text);
+    statement.bind(1, kept);
+    statement.bind(2, other);
+    statement.exec();
+  }
 }
 
 // Throws if the file was removed, replaced or upgraded. Writes to a removed file would succeed, but no one could read

@@ -27,7 +27,8 @@ class RunParts {
       : shift_rows_(database, "SELECT " + column_names<ShiftRecord>() + " FROM shift WHERE run = ? ORDER BY shift"),
         error_rows_(database,
                     "SELECT " + column_names<DrivingError>() + " FROM driving_error WHERE run = ? ORDER BY number"),
-        comment_rows_(database, "SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY id") {}
+        comment_rows_(database,
+                      "SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY made_at, id") {}
 
   void read(RunRow& run) {
     for (begin(shift_rows_, run.id); shift_rows_.executeStep();) read_shift(run.result);
@@ -73,7 +74,7 @@ RunRow run_in(const SQLite::Statement& row) {
              stored_date(row.getColumn(2).getString()),
              row.getColumn(3).getString(),
              {}};
-  read_record(row, 4, run.result);
+  run.kept_at = row.getColumn(read_record(row, 4, run.result)).getString();
   run.result.grade = std::clamp(run.result.grade, 0.0, kMaxPoints);
   return run;
 }
@@ -111,9 +112,9 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
     // Reads all rows from one snapshot, even while another program is writing.
     SQLite::Transaction snapshot(*state_->database);
     SQLite::Statement rows =
-        state_->query("SELECT r.id, session, r.begun_at, recording, " + column_names<LessonResult>() +
+        state_->query("SELECT r.id, session, r.begun_at, recording, " + column_names<LessonResult>() + ", kept_at" +
                       " FROM lesson_run r JOIN session s ON s.id = r.session "
-                      "WHERE s.learner = ? ORDER BY r.id");
+                      "WHERE s.learner = ? ORDER BY r.begun_at, r.id");
     rows.bind(1, learner);
     RunParts parts(*state_->database);
     std::vector<RunRow> runs;

@@ -14,6 +14,8 @@
 
 namespace gearshift::lessons {
 
+std::filesystem::path history_folder(const std::filesystem::path& history);  // absolute (recording_path.cpp)
+
 struct History::State {
   State(const std::filesystem::path& path, Clock clock, std::chrono::milliseconds timeout)
       : file(path), now(std::move(clock)), lock_timeout(timeout) {}
@@ -23,12 +25,16 @@ struct History::State {
   void open_copy();  // copies the file into memory, for reading
 
   // history_write.cpp
+  std::int64_t insert_numbered(SQLite::Statement& insert, int index, const char* kind);
   void insert_shift(std::int64_t run, const ShiftRecord& shift);
   void replace_errors(std::int64_t run, const LessonResult& result);
 
   // history_read.cpp
   std::vector<LearnerRow> learners();
   std::optional<LearnerRow> find_learner(std::string_view name);
+
+  // history_open.cpp
+  void join_learners(std::int64_t kept, std::int64_t other);
 
   // recording_path.cpp
   std::string relative_recording(const std::string& recording) const;  // path as stored in the history
@@ -79,6 +85,7 @@ struct History::State {
   int checked_version();
   int version_in_file();
   void upgrade();
+  void run_scripts(int version);
   void join_equal_learners();
   void enable_write_ahead_log();
   void copy_locked(const std::string& from);

@@ -4,6 +4,18 @@
 
 namespace gearshift::lessons {
 
+// Inserts a row of this file. Binds the row's number at `index`, and returns it.
+std::int64_t History::State::insert_numbered(SQLite::Statement& insert, int index, const char* kind) {
+  SQLite::Statement count = query("UPDATE last_number SET number = number + 1 WHERE kind = ? RETURNING number");
+  count.bind(1, kind);
+  count.executeStep();
+  const std::int64_t number = count.getColumn(0).getInt64();
+  count.reset();
+  insert.bind(index, number);
+  insert.exec();
+  return number;
+}
+
 void History::State::insert_shift(std::int64_t run, const ShiftRecord& shift) {
   SQLite::Statement insert = query("INSERT OR REPLACE INTO shift (" + column_names<ShiftRecord>() + ", run) VALUES (" +
                                    placeholders<ShiftRecord>(1) + ")");
@@ -32,11 +44,10 @@ std::int64_t History::find_or_add_learner(std::string_view name) {
     if (known && known->name == stored_name(name)) return known->id;
     const std::string stored = checked_learner_name(name);
     if (known) return known->id;
-    SQLite::Statement insert = state_->query("INSERT INTO learner (name, made_at) VALUES (?, ?)");
+    SQLite::Statement insert = state_->query("INSERT INTO learner (name, made_at, id) VALUES (?, ?, ?)");
     insert.bind(1, stored);
     insert.bind(2, state_->date());
-    insert.exec();
-    return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
+    return state_->insert_numbered(insert, 3, "learner");
   });
 }
 
@@ -64,12 +75,12 @@ void History::set_next_lesson(std::int64_t learner, std::string_view lesson) {
 
 std::int64_t History::begin_session(std::int64_t learner, std::string_view program) {
   return state_->write([&] {
-    SQLite::Statement insert = state_->query("INSERT INTO session (learner, begun_at, program) VALUES (?, ?, ?)");
+    SQLite::Statement insert =
+        state_->query("INSERT INTO session (learner, begun_at, program, id) VALUES (?, ?, ?, ?)");
     insert.bind(1, learner);
     insert.bind(2, state_->date());
     insert.bind(3, std::string(program));
-    insert.exec();
-    return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
+    return state_->insert_numbered(insert, 4, "session");
   });
 }
 
@@ -83,13 +94,12 @@ std::int64_t History::begin_run(std::int64_t session, const LessonResult& result
   return state_->write([&] {
     SQLite::Statement insert =
         state_->query("INSERT INTO lesson_run (" + column_names<LessonResult>() +
-                      ", session, begun_at, recording) VALUES (" + placeholders<LessonResult>(3) + ")");
+                      ", session, begun_at, recording, id) VALUES (" + placeholders<LessonResult>(4) + ")");
     const int next = bind_record(insert, 1, start);
     insert.bind(next, session);
     insert.bind(next + 1, state_->date());
     insert.bind(next + 2, state_->relative_recording(std::string(recording)));
-    insert.exec();
-    return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
+    return state_->insert_numbered(insert, next + 3, "lesson_run");
   });
 }
 
@@ -120,13 +130,13 @@ std::int64_t History::add_comment(std::int64_t run, std::string_view author, std
   const std::string by = checked_text(UserText::name, "an instructor's name", author);
   const std::string stored = checked_text(UserText::comment, "a comment", text);
   return state_->write([&] {
-    SQLite::Statement insert = state_->query("INSERT INTO comment (run, made_at, author, text) VALUES (?, ?, ?, ?)");
+    SQLite::Statement insert =
+        state_->query("INSERT INTO comment (run, made_at, author, text, id) VALUES (?, ?, ?, ?, ?)");
     insert.bind(1, run);
     insert.bind(2, state_->date());
     insert.bind(3, by);
     insert.bind(4, stored);
-    insert.exec();
-    return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
+    return state_->insert_numbered(insert, 5, "comment");
   });
 }
 

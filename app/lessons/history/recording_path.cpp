@@ -33,16 +33,16 @@ fs::path without_links(const fs::path& path) {
   return problem ? path : real;
 }
 
-fs::path folder_of(const fs::path& history) {
+}  // namespace
+
+fs::path history_folder(const fs::path& history) {
   return haptics::make_absolute(history).parent_path();
 }
-
-}  // namespace
 
 // Compares the paths first as given, and only then with links resolved, so that a link inside the history's folder can
 // move with the folder.
 std::string History::State::relative_recording(const std::string& recording) const {
-  const fs::path trace(recording), folder = folder_of(file);
+  const fs::path trace(recording), folder = history_folder(file);
   if (!trace.is_absolute()) return recording;
   fs::path relative = path_below(folder, trace);
   if (relative.empty()) relative = path_below(without_links(folder), without_links(trace));
@@ -51,7 +51,7 @@ std::string History::State::relative_recording(const std::string& recording) con
 
 fs::path History::recording_file(std::string_view recording) const {
   // If `recording` is an absolute path, operator/ ignores the folder.
-  return recording.empty() ? fs::path() : folder_of(file()) / recording;
+  return recording.empty() ? fs::path() : history_folder(file()) / recording;
 }
 
 }  // namespace gearshift::lessons

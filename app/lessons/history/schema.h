@@ -3,7 +3,7 @@
 
 #include <array>
 #include <string>
-#include <tuple>
+#include <string_view>
 
 namespace gearshift::lessons {
 
@@ -11,29 +11,24 @@ namespace gearshift::lessons {
 inline constexpr int kApplicationId = 0x47534c48;     // "GSLH"
 inline constexpr int kOldApplicationId = 0x47534849;  // "GSHI": written until 0.1.0, no longer read
 
-// The tables of the newest version, as SQL.
+inline constexpr int kSchemaVersion = 4;
+
+// The words of an SQL dialect that the tables of learners need.
+struct SqlDialect {
+  std::string_view key;      // type of a row's number
+  std::string_view integer;  // 64 bits
+  std::string_view real;     // double precision
+};
+inline constexpr SqlDialect kSqlite{"INTEGER PRIMARY KEY AUTOINCREMENT", "INTEGER", "REAL"};
+
+// The tables of learners, sessions, runs, shifts, driving errors and comments in this dialect.
+std::string learner_tables(const SqlDialect& dialect);
+
+// All tables of the newest version of the file, as SQL.
 std::string schema();
 
 // Script i upgrades a file from version i + 1 to i + 2. All needed scripts run in one
 // transaction, with foreign keys off, so that recreating a table does not delete dependent rows.
-inline constexpr std::array<const char*, 2> kUpgrades{
-    // Version 2: figures of a run, how it was graded (0: by the old rule), and the car's unit of speed.
-    // Learners whose names look equal are joined, too (History::State::join_equal_learners).
-    "ALTER TABLE lesson_run ADD COLUMN jerk_peak_m_per_s3 REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN rev_error_rad_per_s REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN clutch_lead_error_s REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN clutch_lag_error_s REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN path_efficiency REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN impulse_n_s REAL;"
-    "ALTER TABLE lesson_run ADD COLUMN graded_by INTEGER NOT NULL DEFAULT 0;"
-    "ALTER TABLE lesson_run ADD COLUMN score REAL;"
-    "ALTER TABLE driving_error ADD COLUMN speed_unit INTEGER NOT NULL DEFAULT 0;",
-    // Version 3: car and gate, help by limb. Until then only the lever gave help, with a strength that was not stored.
-    "ALTER TABLE lesson_run ADD COLUMN car TEXT NOT NULL DEFAULT '';"
-    "ALTER TABLE lesson_run ADD COLUMN path_length_m REAL NOT NULL DEFAULT 0;"
-    "ALTER TABLE lesson_run ADD COLUMN lever_help REAL NOT NULL DEFAULT 0;"
-    "ALTER TABLE lesson_run ADD COLUMN pedal_help REAL NOT NULL DEFAULT 0;"
-    "UPDATE lesson_run SET lever_help = 1 WHERE guided;"};
-inline constexpr int kSchemaVersion = 1 + static_cast<int>(std::tuple_size_v<decltype(kUpgrades)>);
+std::array<std::string, kSchemaVersion - 1> upgrades();
 
 }  // namespace gearshift::lessons

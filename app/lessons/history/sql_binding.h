@@ -15,6 +15,7 @@
 
 #include "app/lessons/assessment/driving_error.h"
 #include "app/lessons/assessment/shift_record.h"
+#include "app/lessons/history/schema.h"
 
 namespace gearshift::lessons {
 
@@ -31,18 +32,18 @@ concept StoredAsNumber = std::is_enum_v<T> && !std::same_as<T, ErrorKind>;
 
 // Type of a column in the schema.
 template <Number T>
-constexpr const char* column_type(const T&) {
-  return std::floating_point<T> ? "REAL NOT NULL" : "INTEGER NOT NULL";
+std::string column_type(const SqlDialect& dialect, const std::optional<T>&) {
+  return std::string(std::floating_point<T> ? dialect.real : dialect.integer);
 }
 template <Number T>
-constexpr const char* column_type(const std::optional<T>&) {
-  return std::floating_point<T> ? "REAL" : "INTEGER";
+std::string column_type(const SqlDialect& dialect, const T&) {
+  return column_type(dialect, std::optional<T>()) + " NOT NULL";
 }
 template <StoredAsNumber T>
-constexpr const char* column_type(const T&) {
-  return "INTEGER NOT NULL";
+std::string column_type(const SqlDialect& dialect, const T&) {
+  return column_type(dialect, 0);
 }
-constexpr const char* column_type(const auto&) {
+std::string column_type(const SqlDialect&, const auto&) {
   return "TEXT NOT NULL";
 }
 
@@ -87,10 +88,10 @@ void read_value(const SQLite::Statement& row, int index, std::optional<T>& value
 }
 
 template <class Record>
-std::string column_definitions() {  // "begin_s REAL NOT NULL, end_s ..."
+std::string column_definitions(const SqlDialect& dialect) {  // "begin_s REAL NOT NULL, end_s ..."
   std::string text;
   each_field(Record(), [&](const RecordField& field, const auto& value) {
-    text += (text.empty() ? "" : ",\n  ") + std::string(field.name) + " " + column_type(value);
+    text += (text.empty() ? "" : ",\n  ") + std::string(field.name) + " " + column_type(dialect, value);
   });
   return text;
 }

@@ -51,37 +51,6 @@ constexpr std::size_t count_members() {
     return sizeof...(Values);
 }
 
-// Each field of a record with a name and a value, as text.
-template <class Record>
-std::map<std::string, std::string> fields_of(const Record& record) {
-  std::map<std::string, std::string> fields;
-  each_field(record, [&](const RecordField& field, const auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    std::string& text = fields[field.name];
-    if constexpr (std::is_enum_v<Value>)
-      text = to_string(value);
-    else if constexpr (std::is_same_v<Value, std::vector<ShiftStep>>)
-      text = format_steps(value);
-    else if constexpr (std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, std::optional<int>>)
-      text = value ? fmt::format("{}", *value) : "none";
-    else
-      text = fmt::format("{}", value);
-  });
-  return fields;
-}
-
-void check_same(const ShiftRecord& a, const ShiftRecord& b) {
-  CHECK(fields_of(a) == fields_of(b));
-}
-
-void check_same(const LessonResult& a, const LessonResult& b) {
-  CHECK(fields_of(a) == fields_of(b));
-  REQUIRE(a.shifts.size() == b.shifts.size());
-  for (std::size_t i = 0; i < a.shifts.size(); ++i) check_same(a.shifts[i], b.shifts[i]);
-  REQUIRE(a.errors.size() == b.errors.size());
-  for (std::size_t i = 0; i < a.errors.size(); ++i) CHECK(fields_of(a.errors[i]) == fields_of(b.errors[i]));
-}
-
 bool is_refused(const std::filesystem::path& file, const std::string& with) {
   try {
     History history(file);

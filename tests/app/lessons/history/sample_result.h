@@ -1,6 +1,16 @@
 // Lesson results in which every number is different.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
 #include "app/lessons/assessment/lesson_result.h"
 #include "app/lessons/history/history.h"
 
@@ -52,6 +62,37 @@ inline lessons::LessonResult some_result(int shifts) {
   result.errors[1].points = 0.5;
   for (int i = 0; i < shifts; ++i) result.shifts.push_back(some_shift(i));
   return result;
+}
+
+// Each field of a record with a name and a value, as text.
+template <class Record>
+std::map<std::string, std::string> fields_of(const Record& record) {
+  std::map<std::string, std::string> fields;
+  lessons::each_field(record, [&](const lessons::RecordField& field, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    std::string& text = fields[field.name];
+    if constexpr (std::is_enum_v<Value>)
+      text = std::string(to_string(value));
+    else if constexpr (std::is_same_v<Value, std::vector<lessons::ShiftStep>>)
+      text = lessons::format_steps(value);
+    else if constexpr (std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, std::optional<int>>)
+      text = value ? fmt::format("{}", *value) : "none";
+    else
+      text = fmt::format("{}", value);
+  });
+  return fields;
+}
+
+inline void check_same(const lessons::ShiftRecord& a, const lessons::ShiftRecord& b) {
+  CHECK(fields_of(a) == fields_of(b));
+}
+
+inline void check_same(const lessons::LessonResult& a, const lessons::LessonResult& b) {
+  CHECK(fields_of(a) == fields_of(b));
+  REQUIRE(a.shifts.size() == b.shifts.size());
+  for (std::size_t i = 0; i < a.shifts.size(); ++i) check_same(a.shifts[i], b.shifts[i]);
+  REQUIRE(a.errors.size() == b.errors.size());
+  for (std::size_t i = 0; i < a.errors.size(); ++i) CHECK(fields_of(a.errors[i]) == fields_of(b.errors[i]));
 }
 
 // Writes a history with one run of Ada's. Returns her number.
