@@ -41,6 +41,7 @@ Session::Session(const SessionChoice& choice)
     offer_in_its_gate(choice, *lesson);
   else
     switch_to(choice);
+  if (!choice.server.empty() && !choice.history.empty()) server_link_.emplace(choice.history, choice.server);
   if (const std::optional<std::string> problem = director_.coach().take_problem()) message_ = *problem;
   why_silent_ = sound_.silence_reason();
   const bool missed = choice.sound == engine::SoundOutput::card && !why_silent_.empty();
@@ -102,6 +103,7 @@ void Session::advance(double seconds) {
   if (lever_.running().clock == runtime::RuntimeClock::virtual_time) lever_.runtime().advance(seconds);
   if (const std::optional<std::string> problem = recorder_.poll_problem(lever_.runtime())) message_ = *problem;
   follow(lever_.runtime().read_frame());
+  if (const auto news = server_link_ ? server_link_->take_message() : std::nullopt) message_ = *news;
   finish_opening();
   if (viewer_.player() != nullptr) show_replay(seconds);
 }

@@ -15,6 +15,7 @@
 #include "app/cabin/sound/cabin_sound.h"
 #include "app/cabin/stage/stage.h"
 #include "app/cabin/view/cabin_kind.h"
+#include "app/lessons/school/server_link.h"
 #include "app/session/drive_recorder.h"
 #include "app/session/lesson_director.h"
 #include "app/session/lever_in_force.h"
@@ -157,8 +158,9 @@ class Session {
   std::int64_t start_ns_ = 0;   // [ns] start of this session, on the loop's clock
   std::int64_t newest_ns_ = 0;  // [ns] time of the newest snapshot, on the loop's clock
   double time_ = 0.0;           // [s] see time()
-  double frame_ms_ = 0.0;       // [ms] length of the last frame
-  std::uint64_t run_ = 0;       // see PanelInput::run
+  std::optional<lessons::ServerLink> server_link_;
+  double frame_ms_ = 0.0;  // [ms] length of the last frame
+  std::uint64_t run_ = 0;  // see PanelInput::run
   bool new_model_ = true;
   LeverInForce lever_;  // last, so that its motors stop first: other destructors may take long, as without a sound card
 };

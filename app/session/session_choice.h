@@ -44,6 +44,7 @@ struct SessionChoice {
   bool help = true;                         // false: the lever never guides the hand
   std::string learner;                      // if empty, or if the hand is kAutomaticHand, results are not saved
   std::filesystem::path history;            // database file; empty: no results are saved
+  std::string server;                       // address of the school's server; empty: none
   std::string no_history;                   // tells the user why `history` is empty; may be empty
 };
 

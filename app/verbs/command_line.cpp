@@ -18,6 +18,7 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_reproduce_verb(app, action);
   add_replay_verb(app, action);
   add_report_verb(app, action);
+  add_school_verb(app, action);
   add_parameters_verb(app, action);
   add_devices_verb(app, action);
   add_campaign_verb(app, action);

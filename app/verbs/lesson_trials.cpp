@@ -19,6 +19,7 @@
 #include "app/lessons/coach/shipped_lessons.h"
 #include "app/lessons/report/report_json.h"
 #include "app/session/recording_file.h"
+#include "app/verbs/history_choice.h"
 #include "app/verbs/print_json.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
@@ -287,7 +288,11 @@ class Trials {
 }  // namespace
 
 bool drive_trials(const LessonTrials& trials) {
-  return Trials(trials).run_all();
+  std::optional<lessons::ServerLink> server;
+  if (!trials.server.empty() && !trials.history.file.empty()) server.emplace(trials.history.file, trials.server);
+  const bool is_passed = Trials(trials).run_all();
+  if (server) finish_exchange(*server);
+  return is_passed;
 }
 
 }  // namespace gearshift::verbs

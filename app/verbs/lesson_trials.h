@@ -16,6 +16,7 @@ struct LessonTrials {
   std::optional<lessons::LessonMode> mode;  // empty: the coach chooses the mode
   std::string learner;                      // empty: nothing is saved
   base::HistoryLocation history;            // if this is unavailable, nothing is saved and the reason is reported
+  std::string server;                       // address of the school's server; empty: none
   bool prints_shifts = false;               // print a line for each shift after the shift was saved
   bool json = false;                        // print one JSON document at the end instead of text
 };

@@ -10,9 +10,9 @@
 #include <fmt/core.h>
 
 #include "app/base/assets_path.h"
-#include "app/base/user_folders.h"
 #include "app/lessons/history/history.h"
 #include "app/verbs/distinct_outputs.h"
+#include "app/verbs/history_choice.h"
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
@@ -102,7 +102,11 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   trials.help = arguments.guided;
   trials.mode = arguments.mode;
   trials.learner = arguments.learner;
-  if (!arguments.learner.empty()) trials.history = base::history_location(arguments.database);
+  if (!arguments.learner.empty()) {
+    HistoryChoice history = choose_history(arguments.database);
+    trials.history = history.place;
+    trials.server = history.server;
+  }
   check_history(arguments.trace, trials.history.file);
   trials.prints_shifts = arguments.verbose;
   trials.json = arguments.json;
@@ -151,9 +155,10 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   CLI::Option* learner = verb->add_option("--learner", arguments->learner, "save and record the runs under this name")
                              ->type_name("NAME")
                              ->check(validate_learner_name);
-  verb->add_option(
-          "--database", arguments->database,
-          "history file to use instead of your own; recordings are saved next to this file, in the folder recordings")
+  verb->add_option("--database", arguments->database,
+                   "history file to use instead of your own, or postgresql:// URL of a school's server; recordings are "
+                   "saved next "
+                   "to the history file, in the folder recordings")
       ->type_name("FILE")
       ->needs(learner);
   verb->add_option("--runs", arguments->runs, "number of runs, one after another")

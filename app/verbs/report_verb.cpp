@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -19,7 +20,6 @@
 
 #include "app/base/console.h"
 #include "app/base/output_folder.h"
-#include "app/base/user_folders.h"
 #include "app/lessons/coach/shipped_lessons.h"
 #include "app/lessons/history/history.h"
 #include "app/lessons/report/delete_learner.h"
@@ -29,7 +29,9 @@
 #include "app/lessons/report/report_files.h"
 #include "app/lessons/report/report_json.h"
 #include "app/lessons/report/report_page.h"
+#include "app/lessons/school/exchange_with_server.h"
 #include "app/verbs/distinct_outputs.h"
+#include "app/verbs/history_choice.h"
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/print_json.h"
 #include "app/verbs/verbs.h"
@@ -47,6 +49,7 @@ constexpr const char* kReportExamples =
     "  gearshift report                                      all learners\n"
     "  gearshift report --learner Ada                        Ada's runs\n"
     "  gearshift report --out class --csv                    all learners: class/index.html, standings.csv\n"
+    "  gearshift report --out class --database a.db --database b.db     all learners of two seats\n"
     "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, errors.csv\n"
     "  gearshift report --learner Ada --out ada --csv --separator semicolon    for a spreadsheet with decimal commas\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
@@ -58,6 +61,8 @@ constexpr const char* kReportExamples =
     "  gearshift report --learner Ada --rename \"Ada Lovelace\"\n"
     "  gearshift report --learner Ada --delete               permanently deletes Ada's results and recordings\n";
 
+constexpr std::int64_t kFirstFileSeat = 900'000'000;  // for files of no school's seat
+
 constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kErrors = "errors.csv",
                      *kStandings = "standings.csv";
 
@@ -66,7 +71,8 @@ const std::map<std::string, char> kSeparators{{"comma", ','}, {"semicolon", ';'}
 using NumberedText = std::pair<std::int64_t, std::string>;
 
 struct ReportArguments {
-  std::string learner, database, out, by, next, name;
+  std::string learner, out, by, next, name;
+  std::vector<std::string> databases;           // empty: the user's own history
   std::string separator = "comma", decimal;     // decimal: empty, "point" or "comma"
   std::optional<NumberedText> comment, edit;    // `comment`: run number, text; `edit`: comment number, new text
   std::optional<std::int64_t> deleted_comment;  // number of the comment to delete
@@ -76,12 +82,6 @@ struct ReportArguments {
 bool has_instructor_options(const ReportArguments& arguments) {
   return arguments.comment || arguments.edit || arguments.deleted_comment || arguments.sets_next ||
          !arguments.name.empty();
-}
-
-fs::path history_file(const ReportArguments& arguments) {
-  const base::HistoryLocation place = base::history_location(arguments.database);
-  if (!place.problem.empty()) throw std::runtime_error(place.problem);
-  return place.file;
 }
 
 std::string known_names(lessons::History& history) {
@@ -290,26 +290,78 @@ int report_learner(const ReportArguments& arguments, lessons::History& history) 
   return 0;
 }
 
+int report_any(const ReportArguments& arguments, lessons::History& history) {
+  if (arguments.learner.empty()) return report_class(arguments, history);
+  return report_learner(arguments, history);
+}
+
+int report_file(const ReportArguments& arguments, const fs::path& file) {
+  lessons::History history(file, lessons::system_seconds, lessons::kHistoryLockTimeout,
+                           has_instructor_options(arguments) ? lessons::HistoryUse::write : lessons::HistoryUse::read);
+  if (!history.upgrade_note().empty()) base::print_message("{}", haptics::printable(history.upgrade_note()));
+  return report_any(arguments, history);
+}
+
+bool writes(const ReportArguments& arguments) {
+  return has_instructor_options(arguments) || arguments.deletes_learner;
+}
+
+// Reports on several files as on one history. Learners of the same name are one.
+int report_files(const ReportArguments& arguments) {
+  if (writes(arguments))
+    throw CLI::ValidationError("--database", "results can be changed in one history at a time only");
+  lessons::Exchange all("several histories", lessons::HistoryUse::memory);
+  std::int64_t seat = kFirstFileSeat;
+  for (const std::string& file : arguments.databases) {
+    if (lessons::is_server_address(file))
+      throw CLI::ValidationError("--database", "a server must be the only database");
+    check_out(arguments, file);
+    if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: history not found", haptics::printable(file)));
+    lessons::copy_learners(file, seat++, all);
+  }
+  return report_any(arguments, all.history());
+}
+
+// Reports on all learners of a school. What an instructor changes is on the server when this returns.
+int report_server(const ReportArguments& arguments) {
+  const std::atomic<bool> never = false;
+  lessons::Connection server(arguments.databases[0], never);
+  lessons::Exchange all(lessons::printable_address(arguments.databases[0]), lessons::HistoryUse::memory);
+  lessons::fetch_all(server, all);
+  if (!writes(arguments)) return report_any(arguments, all.history());
+  lessons::greet(server, all);
+  all.number_as_in_documents();
+  const int code =
+      arguments.deletes_learner ? erase_learner(arguments, all.history(), {}) : report_any(arguments, all.history());
+  lessons::Exchanged done;
+  lessons::exchange(server, all, done);
+  return code;
+}
+
 // Runs the verb. Never creates a history. Opens the history read-only if possible, so that no write permission is
 // needed.
 int run_report(const ReportArguments& arguments) {
-  const fs::path file = history_file(arguments);
+  if (arguments.databases.size() > 1) return report_files(arguments);
+  const std::string database = arguments.databases.empty() ? std::string() : arguments.databases[0];
+  if (lessons::is_server_address(database)) return report_server(arguments);
+  const HistoryChoice choice = choose_history(database);
+  if (!choice.place.problem.empty()) throw std::runtime_error(choice.place.problem);
+  const fs::path file = choice.place.file;
   check_out(arguments, file);
   std::error_code error;
   if (!fs::exists(file, error) && !error) {
-    if (!arguments.database.empty() || !arguments.learner.empty())
+    if (!database.empty() || !arguments.learner.empty())
       throw std::runtime_error(fmt::format("{}: history not found", haptics::printable(file.string())));
     arguments.json ? print_json({{"learners", nlohmann::ordered_json::array()}})
                    : base::print_out("No lesson has been driven yet.\n");
     return 0;
   }
-  if (arguments.deletes_learner) return delete_history(arguments, file);
-  const bool writes = has_instructor_options(arguments);
-  lessons::History history(file, lessons::system_seconds, lessons::kHistoryLockTimeout,
-                           writes ? lessons::HistoryUse::write : lessons::HistoryUse::read);
-  if (!history.upgrade_note().empty()) base::print_message("{}", haptics::printable(history.upgrade_note()));
-  if (arguments.learner.empty()) return report_class(arguments, history);
-  return report_learner(arguments, history);
+  const int code = arguments.deletes_learner ? delete_history(arguments, file) : report_file(arguments, file);
+  if (!choice.server.empty() && writes(arguments)) {
+    lessons::ServerLink server(file, choice.server);
+    finish_exchange(server);
+  }
+  return code;
 }
 
 std::string not_empty(const std::string& value) {
@@ -334,8 +386,13 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   verb->footer(kReportExamples);
   CLI::Option* learner =
       verb->add_option("--learner", arguments->learner, "learner to report on")->type_name("NAME")->check(not_empty);
-  verb->add_option("--database", arguments->database, "history file to use instead of your own")
+  verb->add_option(
+          "--database", arguments->databases,
+          "history file to use instead of your own, or postgresql:// URL of a school's server; give it several "
+          "times to report on several files together")
       ->type_name("FILE")
+      ->expected(1)
+      ->take_all()
       ->check(not_empty);
   CLI::Option* out =
       verb->add_option("--out", arguments->out, "write the page to this folder")->type_name("FOLDER")->check(not_empty);

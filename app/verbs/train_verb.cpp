@@ -12,6 +12,7 @@
 #include "app/runtime/devices/open_stick.h"
 #include "app/session/bindings_file.h"
 #include "app/session/train.h"
+#include "app/verbs/history_choice.h"
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
@@ -83,9 +84,10 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   session::TrainSetup setup;
   setup.choice = arguments.choice;
   setup.choice.help = !arguments.no_help;
-  const base::HistoryLocation place = base::history_location(arguments.database);
-  setup.choice.history = place.file;
-  setup.choice.no_history = place.problem;
+  const HistoryChoice history = choose_history(arguments.database);
+  setup.choice.history = history.place.file;
+  setup.choice.no_history = history.place.problem;
+  setup.choice.server = history.server;
   if (arguments.silent) setup.choice.sound = engine::SoundOutput::none;
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
@@ -184,7 +186,9 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
                    "save results under this name (ignored with --hand \"by itself\")")
       ->type_name("NAME")
       ->check(validate_learner_name);
-  verb->add_option("--database", arguments->database, "history file to use instead of your own")->type_name("FILE");
+  verb->add_option("--database", arguments->database,
+                   "history file to use instead of your own, or postgresql:// URL of a school's server")
+      ->type_name("FILE");
   add_mode_option(*verb, arguments->choice.mode);
   verb->add_flag("--no-help", arguments->no_help, "never guide the lever, so that every attempt is graded");
   verb->add_option("--car", arguments->choice.car,

@@ -34,6 +34,7 @@ void add_contact_verb(CLI::App& app, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, VerbAction& action);
 void add_replay_verb(CLI::App& app, VerbAction& action);
 void add_report_verb(CLI::App& app, VerbAction& action);
+void add_school_verb(CLI::App& app, VerbAction& action);
 void add_parameters_verb(CLI::App& app, VerbAction& action);
 void add_devices_verb(CLI::App& app, VerbAction& action);
 void add_campaign_verb(CLI::App& app, VerbAction& action);

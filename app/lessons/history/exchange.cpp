@@ -220,9 +220,13 @@ struct Exchange::Tables {
     for (const Json& error : document.at("errors")) store("driving_error", error);
   }
 
+  // Number of the unsent change of this row; 0: none.
+  std::int64_t change_of(const char* kind, std::int64_t row) {
+    return one_number(database, fmt::format("SELECT number FROM unsent WHERE kind = '{}' AND row = ?", kind), row);
+  }
+
   bool is_unsent(const char* kind, std::int64_t row) {
-    const std::int64_t number =
-        one_number(database, fmt::format("SELECT number FROM unsent WHERE kind = '{}' AND row = ?", kind), row);
+    const std::int64_t number = change_of(kind, row);
     return number > 0 && number <= last_change;
   }
 };
@@ -285,24 +289,25 @@ void Exchange::forget_sent() {
 }
 
 std::optional<Parcel> Exchange::next_parcel(const std::string& host) {
-  const std::int64_t seat_number = seat().seat;
+  const RowNumbering numbering = own_numbering();
   History::State& state = *history_.state_;
   return state.write([&]() -> std::optional<Parcel> {
     Tables tables{state};
-    tables.numbering.seat = seat_number;
+    tables.numbering = numbering;
     // Rows that were deleted with their learner.
     for (const char* kind : {"learner", "session", "lesson_run", "comment"})
       state.database->exec(
           fmt::format("DELETE FROM unsent WHERE kind = '{0}' AND gone = 0 AND row NOT IN (SELECT id FROM {0})", kind));
     SQLite::Statement oldest = state.query("SELECT number, kind, row, gone FROM unsent ORDER BY number LIMIT 1");
     if (!oldest.executeStep()) return {};
+    const std::int64_t number = oldest.getColumn(0).getInt64();
     const std::string kind = oldest.getColumn(1).getString();
     const std::int64_t row = oldest.getColumn(2).getInt64();
     Parcel parcel;
     if (oldest.getColumn(3).getInt() != 0) {
       parcel.kind = kind == "learner" ? Parcel::Kind::erased_learner : Parcel::Kind::deleted_comment;
       parcel.row = tables.numbering.to_document(row);
-      parcel.changes = {oldest.getColumn(0).getInt64()};
+      parcel.changes = {number};
       return parcel;
     }
     const std::int64_t learner =
@@ -324,18 +329,20 @@ std::optional<Parcel> Exchange::next_parcel(const std::string& host) {
         "unsent JOIN lesson_run r ON r.id = row JOIN session s ON s.id = r.session WHERE kind = 'lesson_run' AND "
         "s.learner = ?1 ORDER BY row LIMIT -1 OFFSET " +
         std::to_string(kMaxRuns) + "))";
-    const Json document = tables.document(learner, sessions, runs, comments, host);
+    Json document = tables.document(learner, sessions, runs, comments, host);
+    document["learner"]["changed"] = tables.change_of("learner", learner) > 0;
     parcel.runs = document["runs"].size();
     const auto note = [&](const char* of, const Json& rows) {
       for (const Json& each : rows)
-        parcel.changes.push_back(one_number(*state.database,
-                                            fmt::format("SELECT number FROM unsent WHERE kind = '{}' AND row = ?", of),
-                                            tables.numbering.to_file(each["id"].get<std::int64_t>())));
+        parcel.changes.push_back(tables.change_of(of, numbering.to_file(each["id"].get<std::int64_t>())));
     };
     note("learner", Json::array({document["learner"]}));
     note("session", document["sessions"]);
     note("lesson_run", document["runs"]);
     note("comment", document["comments"]);
+    std::erase(parcel.changes, 0);  // a learner who has not changed
+    if (std::find(parcel.changes.begin(), parcel.changes.end(), number) == parcel.changes.end())
+      state.refuse("its list of unsent changes is damaged");
     parcel.document = to_text(document);
     return parcel;
   });
@@ -358,7 +365,7 @@ std::size_t Exchange::unsent_runs() {
 }
 
 std::vector<KnownLearner> Exchange::known_learners() {
-  const RowNumbering numbering{seat().seat};
+  const RowNumbering numbering = own_numbering();
   History::State& state = *history_.state_;
   return state.translating_errors([&] {
     std::vector<KnownLearner> all;
@@ -371,18 +378,30 @@ std::vector<KnownLearner> Exchange::known_learners() {
   });
 }
 
+// With a seat that no row has, no number is changed.
+RowNumbering Exchange::own_numbering() {
+  return {has_document_numbers_ ? -1 : seat().seat};
+}
+
+void Exchange::number_as_in_documents() {
+  const std::int64_t first = own_numbering().to_document(0);
+  has_document_numbers_ = true;
+  history_.state_->write(
+      [&] { Tables{*history_.state_}.execute("UPDATE last_number SET number = number + ?1", first); });
+}
+
 std::int64_t Exchange::own_number(std::int64_t number) {
-  return RowNumbering{seat().seat}.to_file(number);
+  return own_numbering().to_file(number);
 }
 
 void Exchange::receive(const std::string& text, std::optional<std::int64_t> id) {
-  const std::int64_t seat_number = seat().seat;
+  const RowNumbering numbering = own_numbering();
   History::State& state = *history_.state_;
   state.write([&] {
     try {
       const Json document = Json::parse(text);
       Tables tables{state};
-      tables.numbering.seat = seat_number;
+      tables.numbering = numbering;
       tables.last_change = state.database->execAndGet("SELECT coalesce(max(number), 0) FROM unsent").getInt64();
       tables.take(document, id);
       tables.execute("DELETE FROM unsent WHERE number > ?1", tables.last_change);

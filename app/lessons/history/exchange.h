@@ -87,11 +87,16 @@ class Exchange {
   // to be one at the server are joined.
   void receive(const std::string& document, std::optional<std::int64_t> id);
   std::string document_of(std::int64_t learner, std::int64_t seat);  // all rows, with this number of the seat
+  // Gives the next rows of a history in memory the numbers that they have in documents, which its user will see.
+  void number_as_in_documents();
   std::int64_t own_number(std::int64_t number);  // number in this file of a row with this number in documents
 
  private:
   struct Tables;
+  RowNumbering own_numbering();
+
   History history_;
+  bool has_document_numbers_ = false;
   int lock_ = -1;
 };
 

@@ -15,7 +15,17 @@ namespace gearshift::lessons {
 History::History(const std::filesystem::path& file, Clock now, std::chrono::milliseconds lock_timeout, HistoryUse use)
     : state_(std::make_unique<State>(file, std::move(now), lock_timeout)) {
   try {
-    use == HistoryUse::write ? state_->open() : state_->open_copy();
+    switch (use) {
+      case HistoryUse::write:
+        state_->open();
+        break;
+      case HistoryUse::read:
+        state_->open_copy();
+        break;
+      case HistoryUse::memory:
+        state_->open_memory();
+        break;
+    }
   } catch (const HistoryFull&) {
     std::error_code none;
     const bool is_new = std::filesystem::file_size(file, none) == 0 || none;

@@ -76,7 +76,8 @@ enum class HistoryUse {
   write,  // creates a missing file
   // Works on a copy of the current state in memory: neither file nor folder needs write permission, and calls that
   // write throw HistoryError.
-  read
+  read,
+  memory  // a new history in memory; the file's name is used only in messages
 };
 
 class History {

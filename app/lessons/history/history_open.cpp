@@ -122,6 +122,14 @@ void History::State::open_copy() {
   });
 }
 
+void History::State::open_memory() {
+  translating_errors([&] {
+    database = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    upgrade();
+    database->exec("PRAGMA foreign_keys = ON");
+  });
+}
+
 // Copies the file with its log, if there is one. If the file is not writable, creates no log, because no other program
 // could write to that log either.
 void History::State::copy_locked(const std::string& from) {

@@ -23,6 +23,7 @@ struct History::State {
   // history_open.cpp
   void open();       // opens the file for writing; creates it if it is missing
   void open_copy();  // copies the file into memory, for reading
+  void open_memory();
 
   // history_write.cpp
   std::int64_t insert_numbered(SQLite::Statement& insert, int index, const char* kind);

@@ -69,7 +69,7 @@ std::string runs_csv(const LearnerHistory& history, const base::CsvFormat& forma
       is_missing ? void(table.text("")) : add_field(table, field, value);
     });
     table.number(points_lost(result)).number(result.shifts.size()).number(result.errors.size());
-    table.text(run.recording).text(comments_text(run.comments)).end();
+    table.text(run.recording.empty() ? run.kept_at : run.recording).text(comments_text(run.comments)).end();
   }
   return std::move(table).take();
 }

@@ -102,7 +102,9 @@ std::string run_row(const RunRow& run, std::span<const Lesson> lessons, double p
       run.id, format_begin(run.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
       format_mode(result, pause), result.shifts.size(),
       is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), format_outcome(result),
-      error_list(result) + figures_list(result, lessons), comments_list(run.comments));
+      error_list(result) + figures_list(result, lessons),
+      (run.kept_at.empty() ? "" : "<p class=\"soft\">Recording: " + base::html_text(run.kept_at) + "</p>") +
+          comments_list(run.comments));
 }
 
 }  // namespace

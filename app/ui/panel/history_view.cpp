@@ -131,7 +131,9 @@ void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run, Pa
   draw_driving_errors(run.result, -1);
   ImGui::Spacing();
   if (run.recording.empty() && !run.result.shifts.empty())
-    put_wrapped("No replay: this run was not recorded.", ink::kSoft);
+    put_wrapped(run.kept_at.empty() ? "No replay: this run was not recorded."
+                                    : "No replay: the recording is on another seat: " + run.kept_at,
+                ink::kSoft);
   for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out);
   comments_.draw(controls, run.id, run.comments, out);
   ImGui::Unindent(0.7f * engine::ui_em());

@@ -99,6 +99,19 @@ TEST_CASE("a row that changes while it is sent is sent again") {
   CHECK_FALSE(a.exchange.next_parcel(""));
 }
 
+TEST_CASE("rows that a history in memory numbers as in documents are sent once") {
+  Exchange exchange("memory", HistoryUse::memory);
+  give_seat(exchange, 4);
+  exchange.number_as_in_documents();
+  const std::int64_t ada = exchange.history().find_or_add_learner("Ada");
+  CHECK(ada == 4 * kRowsPerSeat + 1);
+  const std::vector<Parcel> parcels = send_all(exchange);
+  REQUIRE(parcels.size() == 1);
+  CHECK(Json::parse(parcels[0].document)["learner"]["id"] == ada);
+  CHECK(Json::parse(parcels[0].document)["learner"]["changed"] == true);
+  CHECK(exchange.own_number(ada) == ada);
+}
+
 TEST_CASE("deletions are sent as such, and an erased learner leaves nothing else to send") {
   const TempFolder folder;
   Seat a(folder / "history.db", 3);
