@@ -47,6 +47,9 @@ ELSEWHERE = {
     r"cmake --(preset release|build) .*--target package":
         ("makes the package", "tests/flow/deb_in_chroot.sh", "--target package"),
     r"cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
+    r"gearshift .*--database postgresql://": ("wants a server", "tests/flow/school.sh", "postgresql://"),
+    r"gearshift report .*--database a.db": ("wants files of two seats", "tests/flow/school.sh",
+                                            '"$gearshift" report "${files[@]}"'),
     r"gearshift tour .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "tour --device"),
     r"gearshift .*--device ": ("the same, and a window", "tests/flow/headset_stick.sh", "--device ffboard"),
     r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/calibrate.sh", "devices --calibrate"),
