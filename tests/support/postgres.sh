@@ -10,7 +10,11 @@ programs=$(compgen -G "/usr/lib/postgresql/*/bin" | sort -V | tail -n 1) || { ec
 [ "$(id -u)" -ne 0 ] || as_user=(setpriv --reuid=nobody --regid=nogroup --clear-groups)
 export LC_ALL=C.UTF-8 TZ=UTC
 
-run() { (cd "$folder" && "${as_user[@]:-env}" "$programs/$@"); }
+run() { # program, arguments ...
+  local program=$programs/$1
+  shift
+  (cd "$folder" && "${as_user[@]:-env}" "$program" "$@")
+}
 start() {
   run pg_ctl start -D "$folder/data" -l "$folder/log" -w -t 60 -s \
     -o "-p $(cat "$folder/port") -c listen_addresses=127.0.0.1 -c unix_socket_directories="
@@ -25,7 +29,7 @@ case ${1:-} in
     head -c 12 /dev/urandom | base64 | tr '+/' '-_' >"$folder/owner"
     [ "$(id -u)" -ne 0 ] || chown -R nobody:nogroup "$folder"
     run initdb -D "$folder/data" -U owner --pwfile="$folder/owner" -A scram-sha-256 -E UTF8 --locale=C.UTF-8 >/dev/null
-    for try in 1 2 3 4 5; do # another program may take the port in between
+    for _ in 1 2 3 4 5; do # another program may take the port in between
       python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])' >"$folder/port"
       ! start 2>/dev/null || { echo "$folder"; exit 0; }
     done

@@ -57,7 +57,9 @@ std::string printable_address(const std::string& address) {
 Connection::Connection(const std::string& address, const std::atomic<bool>& stop, std::chrono::milliseconds limit)
     : stop_(stop), limit_(limit), handle_(nullptr, PQfinish) {
   const Options parts = parts_of(address);
-  if (!parts) throw ServerRefusal("the server's address is none that libpq can read; special characters of a password must be percent-encoded");
+  if (!parts)
+    throw ServerRefusal(
+        "the server's address is none that libpq can read; special characters of a password must be percent-encoded");
   password_ = part(parts, "password");
   connect(address);
 }
