@@ -66,6 +66,7 @@ ELSEWHERE = {
         ("takes minutes, and the machine for itself",),
     r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts; fewer there", "tests/flow/campaign.sh",
                                                   '"$gearshift" campaign --seed'),
+    r"gearshift campaign --merge": ("wants shards", "tests/flow/campaign.sh", "--merge part/*"),
     r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
     r"cmake --install": ("installs what was built", "tests/flow/install.sh", "cmake --install"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh", 'report --learner "$ada" --delete'),
