@@ -183,7 +183,7 @@ TEST_CASE("invalid values are refused with file, line, key, value and range") {
         "c.toml:12: constant_sign = 2: must be between -1 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
         "c.toml:12: constant_sign = 0.5: must be a whole number");
-  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:27: mass_kg = nan: must be between 0 and 1000") == 0);
+  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:28: mass_kg = nan: must be between 0 and 1000") == 0);
   CHECK(refusal(changed("axis", "axis = \"q\"")) ==
         "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
   CHECK(refusal(changed("axis", "axis = \"y\"")).find("must differ from the axis of select") != std::string::npos);
