@@ -113,7 +113,8 @@ class Injection:
         self.run("report", "--database", file, "--learner", "Bob", "--next", "hill_start")
         self.run("report", "--database", file, "--learner", "Ada <i>Löwe</i>", "--comment", "3", "fine", "--by", "Bo")
         base = sqlite3.connect(file)
-        kept = {("driving_error", "kind"), ("shift", "steps")}  # words of the program, which a reader must know
+        # Words of the program, which a reader must know.
+        kept = {("driving_error", "kind"), ("shift", "steps"), ("last_number", "kind"), ("unsent", "kind")}
         for (table,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall():
             for _, column, kind, *_ in base.execute(f"PRAGMA table_info({table})").fetchall():
                 if kind != "TEXT" or (table, column) in kept:

@@ -53,7 +53,7 @@ check "a guided lesson is not passed" exits 1 learn guided hill_start --guidance
 check "there is no grade" exits 1 grep -q "Grade" guided.txt
 check "and no deductions" exits 1 grep -q "  -[0-9]" guided.txt
 learn kim skip_shifts --learner Kim --runs 4 --guided
-check "the last of four runs decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
+check "the last of four runs decides the exit code" exits $? grep -q 'Passed\.$' <(grep '^Run ' kim.txt | tail -n 1)
 report --learner Kim --out page --csv
 check "shifts are drawn from the recordings" grep -q 'class="path"' page/index.html
 check "all of them are saved" test "$(rows page/runs.csv)" -eq 6
@@ -75,6 +75,9 @@ check "and the help of each limb" json "run['lever_help'] == run['pedal_help'] =
 check "a failed lesson exits with 1" exits 1 learn json hill_start --fault rollback --json --runs 2
 check "its error has severity, time, value and unit" json "len(runs) == 2 and any(e['kind'] == 'rollback' and
   e['severity'] == 'severe' and e['time_s'] > 0 and e['value'] > 0.1 and e['unit'] == 'm' for e in run['errors'])"
+learn json up_through_the_gears --learner Dump --database dump.db --runs 6 --guided --fault clutch_dump --json
+check "who dumps the clutch gets help with the pedals, not with the lever" json "all(r['lever_help'] == 0 for r in runs) and \
+  max(r['pedal_help'] for r in runs) > 0.3"
 check "a guided lesson has no grade" exits 1 learn json hill_start --guidance 0.5 --json
 check "and says by how much it was guided" json "run['verdict'] == 'not graded' and 'grade' not in run and run['lever_help'] == 0.5 and run['pedal_help'] == 0"
 

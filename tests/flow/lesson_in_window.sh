@@ -57,8 +57,8 @@ check "the simulated driver passes it, too" \
   "$gearshift" lesson moving_off --learner Ada --database "$work/data/gearshift/history.db" >headless.txt
 check "the report is written" "$gearshift" report --learner Ada --out page --csv
 check "both runs are in it" [ "$(grep -c moving_off page/runs.csv)" = 2 ]
-# ended, guided, complete, begin, duration, grade, passed
-check "both passed" [ "$(grep -cE 'moving_off.*,done,0,1(,[0-9.]*){3},1,' page/runs.csv)" = 2 ]
+passed_runs() { python3 -c 'import csv; print(sum(row["passed"] == "1" for row in csv.DictReader(open("page/runs.csv", encoding="utf-8-sig"))))'; }
+check "both passed" [ "$(passed_runs)" = 2 ]
 check "with the shifts" [ "$(wc -l <page/shifts.csv)" -ge 2 ]
 [ -n "${GEARSHIFT_PICTURES:-}" ] && cp -r over.png page drive.txt data "$GEARSHIFT_PICTURES"
 finish

@@ -91,7 +91,7 @@ std::int64_t History::begin_run(std::int64_t session, const LessonResult& result
   start.mode = result.mode;
   start.guided = result.guided;
   start.begin = result.begin;
-  return state_->write([&] {
+  const std::int64_t run = state_->write([&] {
     SQLite::Statement insert =
         state_->query("INSERT INTO lesson_run (" + column_names<LessonResult>() +
                       ", session, begun_at, recording, id) VALUES (" + placeholders<LessonResult>(4) + ")");
@@ -101,6 +101,9 @@ std::int64_t History::begin_run(std::int64_t session, const LessonResult& result
     insert.bind(next + 2, state_->relative_recording(std::string(recording)));
     return state_->insert_numbered(insert, next + 3, "lesson_run");
   });
+  // Empties the log if nobody reads, so that the run's result finds room in it even if the disk fills up meanwhile.
+  state_->database->tryExec("PRAGMA wal_checkpoint(PASSIVE)");
+  return run;
 }
 
 void History::add_shift(std::int64_t run, const ShiftRecord& shift) {

@@ -87,8 +87,11 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
            [](const auto& axis) { return fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude()); });
   per_axis("handle", [](const auto& axis) {
     return axis.handle.mass == 0.0 ? std::string("not measured")
-                                   : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m, {:.2f} N", axis.handle.mass,
-                                                 axis.handle.damping, axis.handle.stiffness, axis.friction);
+                                   : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m", axis.handle.mass,
+                                                 axis.handle.damping, axis.handle.stiffness);
+  });
+  per_axis("dry friction", [](const auto& axis) {
+    return axis.friction == 0.0 ? std::string("none") : fmt::format("{:.2f} N", axis.friction);
   });
   per_axis("own centring", [](const auto& axis) {
     return axis.own_spring == 0.0 ? std::string("none") : fmt::format("{:.0f} N/m", axis.own_spring);

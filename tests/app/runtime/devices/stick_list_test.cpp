@@ -86,6 +86,7 @@ TEST_CASE("the table of a calibration separates its columns, and says what was n
     axis->handle = {10.123, 123.4, 12345.0};
     axis->constant_limit = 1.0;
   }
+  calibration.shift.friction = 0.114;
   std::string table;
   for (const std::string& row : calibration_table(calibration)) {
     CHECK(row.size() < 100);
@@ -94,6 +95,7 @@ TEST_CASE("the table of a calibration separates its columns, and says what was n
   const auto shows = [&table](const char* pattern) { return std::regex_search(table, std::regex(pattern)); };
   INFO(table);
   CHECK(shows("\n  handle  +10.123 kg, 123.4 N s/m, 12345 N/m  +10.123 kg"));
+  CHECK(shows("\n  dry friction  +none  +0.11 N\n"));
   CHECK(shows("\n  even forces  +up to 100 % of the magnitude  +up to 100 %"));
   CHECK(shows("\n  springs  +not measured  +not measured\n"));
   CHECK(shows("\n  dead band  +not measured  +not measured\n"));
