@@ -43,8 +43,8 @@ std::string help_footer() {
 lab::ScriptedDriveConfig config_of(const DriveArguments& arguments) {
   lab::ScriptedDriveConfig config;
   config.car = vehicle::read_car(base::find_asset("cars", arguments.car));
-  config.gate =
-      haptics::read_gearbox_layout(base::find_asset("gates", arguments.gate.empty() ? config.car.gate : arguments.gate));
+  config.gate = haptics::read_gearbox_layout(
+      base::find_asset("gates", arguments.gate.empty() ? config.car.gate : arguments.gate));
   config.script = lab::read_drive_script(arguments.script);
   const int first_gear = config.script.rows.front().gear.value_or(haptics::kNeutralGear);
   try {

@@ -344,8 +344,9 @@ TEST_CASE("a textbook spring's bound is below the exact boundary, and the limiti
 
 TEST_CASE("least damping: B >= K (q / (0.08 m/s) + 0.1 tau), and (2 delay + 1) T more with the zero-order hold") {
   constexpr double kMass = 0.086;
-  for (const auto& [rate, delay] :
-       {std::pair{4000.0, 0}, {4000.0, 8}, {1000.0, 0}, {1000.0, 4}, {500.0, 1}, {100.0, 0}}) {
+  for (const auto& timing : {std::pair{4000.0, 0}, {4000.0, 8}, {1000.0, 0}, {1000.0, 4}, {500.0, 1}, {100.0, 0}}) {
+    const double rate = timing.first;
+    const int delay = timing.second;
     for (const ContactHold hold : {ContactHold::half_sample, ContactHold::zero_order}) {
       CAPTURE(rate);
       CAPTURE(delay);
