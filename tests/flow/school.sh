@@ -153,15 +153,9 @@ check "and has nothing of her" test "$(on 2 report | grep -c "^Ada")" -eq 0
 check "nor her recordings: $before, $(recordings 2)" test "$(recordings 2)" -lt "$before"
 lesson 2 Eve >>e.out 2>quiet
 check "no more is said" is_quiet quiet
+sleep 1.1 # dates have whole seconds: a learner of the second of an erasure counts as the erased one
 check "another Ada is another person" lesson 1 Ada >/dev/null
-one_run() { # the server may get the end of the run a moment later
-  for _ in $(seq 50); do
-    [ "$(runs_of Ada)" -ne 1 ] || return 0
-    sleep 0.1
-  done
-  return 1
-}
-check "with one run" one_run
+check "with one run" test "$(runs_of Ada)" -eq 1
 mkdir -p late/gearshift
 use_server 3
 mv seat3/gearshift/history.db-server late/
