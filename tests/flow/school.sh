@@ -153,7 +153,6 @@ check "and has nothing of her" test "$(on 2 report | grep -c "^Ada")" -eq 0
 check "nor her recordings: $before, $(recordings 2)" test "$(recordings 2)" -lt "$before"
 lesson 2 Eve >>e.out 2>quiet
 check "no more is said" is_quiet quiet
-sleep 1.1 # dates have whole seconds: a learner of the second of an erasure counts as the erased one
 check "another Ada is another person" lesson 1 Ada >/dev/null
 check "with one run" test "$(runs_of Ada)" -eq 1
 mkdir -p late/gearshift

@@ -36,7 +36,7 @@ CREATE INDEX comment_of_run ON comment (run);
 CREATE TABLE alias (id bigint PRIMARY KEY, learner bigint NOT NULL REFERENCES learner ON DELETE CASCADE);
 CREATE INDEX alias_of_learner ON alias (learner);
 CREATE TABLE erased (id bigint PRIMARY KEY);
-CREATE TABLE erased_name (hash bytea PRIMARY KEY, at text NOT NULL);
+CREATE TABLE erased_name (hash bytea PRIMARY KEY, at text NOT NULL, seat bigint NOT NULL);
 CREATE TABLE deleted_comment (
   id bigint PRIMARY KEY, learner bigint NOT NULL REFERENCES learner ON DELETE CASCADE,
   version bigint NOT NULL, writer bigint NOT NULL);
@@ -100,8 +100,9 @@ BEGIN
   IF EXISTS (SELECT FROM erased WHERE id = _asked) THEN RETURN; END IF;
   SELECT learner INTO _learner FROM alias WHERE id = _asked;
   IF NOT FOUND THEN
+    -- On the seat that erased the name, a new learner of that name can only have been made afterwards.
     IF EXISTS (SELECT FROM erased_name n WHERE n.hash = sha256(convert_to(l ->> 'name', 'UTF8'))
-               AND n.at >= l ->> 'made_at') THEN
+               AND n.at >= l ->> 'made_at' AND n.seat <> s.number) THEN
       INSERT INTO erased VALUES (_asked);
       RETURN;
     END IF;
@@ -177,8 +178,8 @@ BEGIN
   SELECT l.id INTO _learner FROM learner l WHERE l.id = (SELECT a.learner FROM alias a WHERE a.id = _asked) FOR UPDATE;
   INSERT INTO erased SELECT id FROM alias WHERE learner = _learner UNION SELECT _asked ON CONFLICT DO NOTHING;
   INSERT INTO erased_name SELECT sha256(convert_to(name, 'UTF8')),
-      to_char(now() AT TIME ZONE 'UTC', 'YYYY-MM-DD"T"HH24:MI:SS"Z"') FROM learner WHERE id = _learner
-    ON CONFLICT (hash) DO UPDATE SET at = excluded.at;
+      to_char(now() AT TIME ZONE 'UTC', 'YYYY-MM-DD"T"HH24:MI:SS"Z"'), s.number FROM learner WHERE id = _learner
+    ON CONFLICT (hash) DO UPDATE SET at = excluded.at, seat = excluded.seat;
   DELETE FROM learner WHERE id = _learner;
 END $$;
 
