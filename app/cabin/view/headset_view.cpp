@@ -71,7 +71,7 @@ std::array<engine::View, 2> views_in(const engine::EyePose& cabin_from_room, con
 
 }  // namespace
 
-// What the runtime and the GPU have of a headset. Only its HeadsetThread makes and destroys it.
+// The objects of the runtime and the GPU that belong to a headset. Only its HeadsetThread makes and destroys them.
 struct HeadsetParts {
   explicit HeadsetParts(const HeadsetViewConfig& config)
       : gpu(shared_with(runtime)),
@@ -84,7 +84,7 @@ struct HeadsetParts {
   engine::HeadsetSession session;
 };
 
-// What the headset's thread hands over. It writes while a call is in progress, and the view reads afterwards.
+// Results of the headset's thread. The thread writes them during a call; the view reads them after the call.
 struct Handover {
   std::unique_ptr<HeadsetParts> parts;
   engine::HeadsetState state = engine::HeadsetState::idle;
@@ -144,8 +144,7 @@ struct HeadsetView::State {
     make_mirror(shown_in, ui);
   }
   ~State() {
-    // A runtime that is stuck in a call that may use the queue does not let go of it; then nothing is submitted to it
-    // any more either.
+    // A runtime that hangs in a call may keep the queue locked. It then submits nothing more, either.
     std::unique_lock lock(parts.gpu.queue_mutex(), std::defer_lock);
     const Clock::time_point end = Clock::now() + kQueueTimeout;
     while (!lock.try_lock() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -160,7 +159,7 @@ struct HeadsetView::State {
   void draw_cabin(const engine::FrameScene& scene, const engine::EyePose& seat, const engine::HeadsetEyes& from,
                   engine::Renderer::Finish* finish);
 
-  // What the headset's thread does in a frame, in this order.
+  // The calls that the headset's thread makes in a frame, in this order.
   enum class Step { none, begin, acquire, locate, end };
   template <class Work>
   void start(Step next, Work work);

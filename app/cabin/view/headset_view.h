@@ -59,8 +59,8 @@ class HeadsetView {
   bool is_held() const noexcept;                     // the runtime has not returned from a call in time
   bool is_shown() const noexcept;                    // true if the headset displays the newest frame
   const engine::HeadsetEyes& eyes() const noexcept;  // poses of the eyes in the room
-  // Of the frame that has begun.
-  const std::array<engine::HeadsetHand, 2>& hands() const noexcept;  // left and right hand, poses in the room
+  // Left and right hand when the frame began; poses in the room.
+  const std::array<engine::HeadsetHand, 2>& hands() const noexcept;
   std::optional<engine::SpaceChange> take_due_space_change();
 
   // Draws from the current eye poses, submits the frame, and then updates the mirror. `cabin_from_room`: see
@@ -72,7 +72,7 @@ class HeadsetView {
 
   const engine::HeadsetTraits& headset() const noexcept;
   engine::HeadsetState state() const noexcept;
-  std::optional<bool> is_present() const noexcept;  // somebody wears the headset; empty: the runtime does not tell
+  std::optional<bool> is_present() const noexcept;  // somebody wears the headset; empty: the runtime does not report it
   bool is_room_persistent() const noexcept;         // true if the tracking space stays the same in the next session
   const engine::HeadsetTiming& timing() const noexcept;
   glm::ivec2 eye_size() const noexcept;  // [px]

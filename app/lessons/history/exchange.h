@@ -31,7 +31,7 @@ struct RowNumbering {
   }
 };
 
-// What a file knows of its server. The server counts the documents of each seat, and keeps the mark of the last one. A
+// A file's record of its server. The server counts the documents of each seat, and keeps the mark of the last one. A
 // file with another count or mark is a copy or an older state of the seat's history, and must not send.
 struct SeatState {
   std::string token;       // identifies this file to the server

@@ -29,7 +29,7 @@ void change_origin(State& s, XrSession handle, const Event& event) {
 }
 
 // XR_EXT_user_presence; the numbers are those of the registry, because Debian 12's headers lack it.
-void tell_presence(State& s, XrSession handle, bool is_present) {
+void send_presence(State& s, XrSession handle, bool is_present) {
   if (!s.control.script.user_presence) return;
   struct {
     XrStructureType type = static_cast<XrStructureType>(1000470000);
@@ -82,7 +82,7 @@ void play_for_session(State& s, const Event& event, XrSession handle, Object<XrS
       return;
     case Event::Kind::absent:
     case Event::Kind::present:
-      return tell_presence(s, handle, event.kind == Event::Kind::present);
+      return send_presence(s, handle, event.kind == Event::Kind::present);
     case Event::Kind::space_change:
       return change_origin(s, handle, event);
     default:
