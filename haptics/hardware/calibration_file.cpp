@@ -158,7 +158,11 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
   std::error_code ignored;
   if (std::filesystem::symlink_status(file, ignored).type() == std::filesystem::file_type::not_found)
     return std::nullopt;
-  const TomlTable root = TomlTable::parse(read_text_file(file), file.string());
+  return parse_calibration(read_text_file(file), file.string());
+}
+
+DeviceCalibration parse_calibration(std::string_view text, const std::string& file_name) {
+  const TomlTable root = TomlTable::parse(text, file_name);
   DeviceCalibration calibration;
   if (root.has("name")) calibration.name = root.text("name");
   calibration.vendor = read_id(root, "vendor");

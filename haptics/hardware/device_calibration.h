@@ -194,6 +194,7 @@ std::filesystem::path calibration_file(const std::filesystem::path& folder, cons
 
 // Returns an empty value if there is no file. Throws FileError if the file is invalid.
 std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& file);
+DeviceCalibration parse_calibration(std::string_view text, const std::string& file_name);
 
 // Writes every number losslessly and creates the folder if needed. Throws FileError if the file cannot be written or
 // the text cannot be read back; the old file is then left untouched.

@@ -114,17 +114,14 @@ void BlockCodec::Free::operator()(ZSTD_DCtx_s* decompressor) const noexcept {
   ZSTD_freeDCtx(decompressor);
 }
 
-BlockCodec::BlockCodec()
-    : compressor_(ZSTD_createCCtx()),
-      decompressor_(ZSTD_createDCtx()),
-      derived_(kSamplesPerBlock * kSampleBytes),
-      planes_(kSamplesPerBlock * kSampleBytes) {
+BlockCodec::BlockCodec() : compressor_(ZSTD_createCCtx()), decompressor_(ZSTD_createDCtx()) {
   if (!compressor_ || !decompressor_) throw std::bad_alloc();
 }
 
 void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byte>& coded) {
   derived_.assign(samples.begin(), samples.end());
   for (std::size_t at = 0; at < samples.size(); at += kSampleBytes) xor_derived(&derived_[at]);
+  planes_.resize(samples.size());
   change_planes(derived_.data(), samples.size() / kSampleBytes, planes_.data());
   coded.resize(kMaxCodedBytes);
   const std::size_t size =
@@ -139,6 +136,7 @@ bool BlockCodec::decode(std::span<const std::byte> coded, std::size_t count, std
   if (!is_current_format(coded)) return false;
   if (ZSTD_getFrameContentSize(coded.data(), coded.size()) != size) return false;
   if (ZSTD_findFrameCompressedSize(coded.data(), coded.size()) != coded.size()) return false;
+  planes_.resize(size);
   if (ZSTD_decompressDCtx(decompressor_.get(), planes_.data(), size, coded.data(), coded.size()) != size) return false;
   samples.resize(size);
   restore(planes_.data(), count, samples.data());

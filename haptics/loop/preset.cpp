@@ -66,7 +66,11 @@ void read_lever_text(const TomlTable& table, SimulatedLeverConfig& lever) {
 }  // namespace
 
 Preset read_preset(const std::string& file) {
-  const TomlTable root = TomlTable::parse(read_text_file(file), file);
+  return parse_preset(read_text_file(file), file);
+}
+
+Preset parse_preset(std::string_view text, const std::string& file_name) {
+  const TomlTable root = TomlTable::parse(text, file_name);
   Preset preset;
   preset.name = root.text("name");
   Sections sections(root);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "haptics/device/simulated_lever.h"
 #include "haptics/loop/haptic_config.h"
@@ -19,6 +20,7 @@ struct Preset {
 // Missing keys keep the struct's defaults. If the file is invalid, throws FileError with file, line, key, value and
 // range.
 Preset read_preset(const std::string& file);
+Preset parse_preset(std::string_view text, const std::string& file_name);
 
 enum class PresetComments { none, descriptions };
 

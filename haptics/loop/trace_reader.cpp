@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +20,16 @@ std::string at_byte(std::uint64_t at) {
 
 TraceReader::TraceReader(const std::filesystem::path& file, TornTrace torn) : name_(file.string()), policy_(torn) {
   open(file);
+  begin();
+}
+
+TraceReader::TraceReader(std::string bytes, const std::string& name, TornTrace torn)
+    : name_(name), size_(bytes.size()), policy_(torn) {
+  stream_ = std::make_unique<std::istringstream>(std::move(bytes), std::ios::binary);
+  begin();
+}
+
+void TraceReader::begin() {
   check_preamble();
   read_header();
   check_scanned();
@@ -42,16 +54,16 @@ void TraceReader::open(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) fail("this is a folder, not a trace");
   if (!std::filesystem::is_regular_file(status)) fail("this is not a regular file");
   errno = 0;
-  stream_.open(file, std::ios::binary);
-  if (!stream_) fail(std::string("cannot be read (") + std::strerror(errno) + ")");
+  stream_ = std::make_unique<std::ifstream>(file, std::ios::binary);
+  if (!*stream_) fail(std::string("cannot be read (") + std::strerror(errno) + ")");
   size_ = std::filesystem::file_size(file, error);
   if (error) fail("cannot be read (" + error.message() + ")");
 }
 
 void TraceReader::read(std::uint64_t at, std::span<std::byte> to) {
-  stream_.seekg(static_cast<std::streamoff>(at));
-  stream_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
-  if (!stream_) fail("the file cannot be read " + at_byte(at));
+  stream_->seekg(static_cast<std::streamoff>(at));
+  stream_->read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  if (!*stream_) fail("the file cannot be read " + at_byte(at));
 }
 
 void TraceReader::check_preamble() {

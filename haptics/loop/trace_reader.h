@@ -4,7 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ class TraceReader {
   // Throws FileError with one sentence if the file is missing, a directory, empty, not a trace, of another format,
   // damaged or torn. The constructor checks the frames of all blocks; next() checks the payloads.
   explicit TraceReader(const std::filesystem::path& file, TornTrace torn = TornTrace::refuse);
+  // Reads a trace from memory; name: of the file, for errors.
+  TraceReader(std::string bytes, const std::string& name, TornTrace torn = TornTrace::refuse);
 
   const TraceHeader& header() const noexcept { return header_; }
   std::uint64_t cycles() const noexcept { return cycles_; }  // number of cycles in all complete data blocks
@@ -43,6 +46,7 @@ class TraceReader {
   };
 
   [[noreturn]] void fail(const std::string& reason) const;
+  void begin();
   void open(const std::filesystem::path& file);
   void check_preamble();
   void read_header();
@@ -57,7 +61,7 @@ class TraceReader {
   std::vector<std::byte> read_payload(const Block& block);
 
   std::string name_;
-  std::ifstream stream_;
+  std::unique_ptr<std::istream> stream_;
   std::uint64_t size_ = 0;  // [bytes] size of the file
   TornTrace policy_;
   TraceHeader header_;

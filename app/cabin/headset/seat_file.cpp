@@ -28,30 +28,17 @@ std::string line(const char* key, double value) {
   return fmt::format("{} = {}\n", key, std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
 }
 
-std::string text_of(const SeatSettings& seat) {
-  std::string text = "# Positions of the driver and the lever, saved by gearshift train --xr.\n\n";
-  text += fmt::format("drive = \"{}\"\n", seat.drive == DriveSide::left ? "left" : "right");
-  text += line("seat_height_m", seat.height);
-  if (seat.knob) {
-    text += "\n[knob]  # relative to the driver's eyes\n" + line("right_m", seat.knob->right) +
-            line("down_m", seat.knob->down) + line("ahead_m", seat.knob->ahead);
-  }
-  if (seat.touched) {
-    const glm::dvec3& at = seat.touched->position;
-    text += "\n[touched]  # where the headset's room lies in the cabin, found by touching the knob\n" +
-            line("x_m", at.x) + line("y_m", at.y) + line("z_m", at.z) +
-            line("turn_deg", std::remainder(turn_of(*seat.touched), 360.0)) + line("error_m", seat.touch_error);
-  }
-  return text;
-}
-
 }  // namespace
 
 SeatSettings read_seat(const std::filesystem::path& file) {
-  SeatSettings seat;
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return seat;
-  const haptics::TomlTable all = haptics::TomlTable::parse(haptics::read_text_file(file), file.string());
+  if (!std::filesystem::exists(file, ignored)) return {};
+  return parse_seat(haptics::read_text_file(file), file.string());
+}
+
+SeatSettings parse_seat(std::string_view text, const std::string& file_name) {
+  SeatSettings seat;
+  const haptics::TomlTable all = haptics::TomlTable::parse(text, file_name);
   if (all.has("drive") && all.choice("drive", {"left", "right"}) == "right") seat.drive = DriveSide::right;
   seat.height = all.number_or("seat_height_m", 0.0, kHeight);
   if (all.has("knob")) {
@@ -77,10 +64,27 @@ SeatSettings read_seat(const std::filesystem::path& file) {
   return seat;
 }
 
+std::string seat_text(const SeatSettings& seat) {
+  std::string text = "# Positions of the driver and the lever, saved by gearshift train --xr.\n\n";
+  text += fmt::format("drive = \"{}\"\n", seat.drive == DriveSide::left ? "left" : "right");
+  text += line("seat_height_m", seat.height);
+  if (seat.knob) {
+    text += "\n[knob]  # relative to the driver's eyes\n" + line("right_m", seat.knob->right) +
+            line("down_m", seat.knob->down) + line("ahead_m", seat.knob->ahead);
+  }
+  if (seat.touched) {
+    const glm::dvec3& at = seat.touched->position;
+    text += "\n[touched]  # where the headset's room lies in the cabin, found by touching the knob\n" +
+            line("x_m", at.x) + line("y_m", at.y) + line("z_m", at.z) +
+            line("turn_deg", std::remainder(turn_of(*seat.touched), 360.0)) + line("error_m", seat.touch_error);
+  }
+  return text;
+}
+
 void write_seat(const SeatSettings& seat, const std::filesystem::path& file) {
   std::error_code ignored;  // ignored, because the write below reports the failure
   std::filesystem::create_directories(file.parent_path(), ignored);
-  haptics::write_verified_file(file, text_of(seat), [](const std::filesystem::path& part) { (void)read_seat(part); });
+  haptics::write_verified_file(file, seat_text(seat), [](const std::filesystem::path& part) { (void)read_seat(part); });
 }
 
 }  // namespace gearshift::cabin

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/cabin/headset/seat.h"
 #include "app/cabin/stage/drive_side.h"
@@ -21,7 +22,9 @@ struct SeatSettings {
 
 // Returns default settings if the file does not exist. Throws FileError.
 SeatSettings read_seat(const std::filesystem::path& file);
+SeatSettings parse_seat(std::string_view text, const std::string& file_name);
 // Creates the file's folder if it is missing. Throws FileError.
 void write_seat(const SeatSettings& seat, const std::filesystem::path& file);
+std::string seat_text(const SeatSettings& seat);
 
 }  // namespace gearshift::cabin

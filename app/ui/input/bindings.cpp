@@ -210,7 +210,11 @@ std::string axis_label(const AxisBinding& axis, std::string_view pad_id) {
 }  // namespace
 
 Bindings read_bindings(const std::filesystem::path& file) {
-  const haptics::TomlTable root = haptics::TomlTable::parse(haptics::read_text_file(file), file.string());
+  return parse_bindings(haptics::read_text_file(file), file.string());
+}
+
+Bindings parse_bindings(std::string_view text, const std::string& file_name) {
+  const haptics::TomlTable root = haptics::TomlTable::parse(text, file_name);
   Bindings bindings;
   if (root.has("keys")) {
     const haptics::TomlTable keys = root.table("keys");

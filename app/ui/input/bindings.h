@@ -154,6 +154,7 @@ inline constexpr AxisInfo kAxes[] = {{"clutch",
 // Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one
 // action; ranges of an axis that are bound to different actions must not overlap.
 Bindings read_bindings(const std::filesystem::path& file);
+Bindings parse_bindings(std::string_view text, const std::string& file_name);
 
 // Writes a file that read_bindings() reads back unchanged. If the function throws FileError, an existing file is
 // unchanged.
