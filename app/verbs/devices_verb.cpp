@@ -20,6 +20,7 @@
 #include "app/runtime/devices/open_stick.h"
 #include "app/runtime/devices/stick_list.h"
 #include "app/session/bindings_file.h"
+#include "app/ui/input/bound_controllers.h"
 #include "app/ui/input/controls_dialog.h"
 #include "app/ui/input/controls_setup.h"
 #include "app/verbs/verbs.h"
@@ -68,7 +69,7 @@ DeviceJson controller_json(const engine::Controller& one) {
           {"guid", one.guid},
           {"axes", one.axes.size()},
           {"buttons", one.buttons.size()},
-          {"gamepad", one.gamepad.has_value()},
+          {"gamepad", ui::is_game_pad(one)},
           {"can_be_read", one.can_be_read}};
 }
 
@@ -123,9 +124,9 @@ void print_controllers(const std::vector<engine::Controller>& controllers) {
   for (const engine::Controller& one : controllers)
     rows.push_back({haptics::printable(one.name), one.id, one.can_be_read ? std::to_string(one.axes.size()) : "?",
                     one.can_be_read ? std::to_string(one.buttons.size()) : "?",
-                    !one.can_be_read ? "no permission"
-                    : one.gamepad    ? "game pad"
-                                     : "set up by --controls"});
+                    !one.can_be_read       ? "no permission"
+                    : ui::is_game_pad(one) ? "game pad"
+                                           : "set up by --controls"});
   print_rows(rows);
 }
 

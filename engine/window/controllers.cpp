@@ -107,9 +107,37 @@ float centred(const input_absinfo& axis) {
                        : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
 }
 
+// The button of a game pad that usually has this code, after the kernel's Documentation/input/gamepad.rst. Drivers disagree
+// about X and Y.
+std::optional<std::size_t> usual_button(unsigned code) {
+  switch (code) {
+    case BTN_SOUTH:
+      return GLFW_GAMEPAD_BUTTON_A;
+    case BTN_EAST:
+      return GLFW_GAMEPAD_BUTTON_B;
+    case BTN_TL:
+      return GLFW_GAMEPAD_BUTTON_LEFT_BUMPER;
+    case BTN_TR:
+      return GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER;
+    case BTN_SELECT:
+      return GLFW_GAMEPAD_BUTTON_BACK;
+    case BTN_START:
+      return GLFW_GAMEPAD_BUTTON_START;
+    case BTN_MODE:
+      return GLFW_GAMEPAD_BUTTON_GUIDE;
+    case BTN_THUMBL:
+      return GLFW_GAMEPAD_BUTTON_LEFT_THUMB;
+    case BTN_THUMBR:
+      return GLFW_GAMEPAD_BUTTON_RIGHT_THUMB;
+    default:
+      return std::nullopt;
+  }
+}
+
 // GLFW reports the state of a game pad and no events, so it misses a press shorter than a frame. The device has reported
-// it, but only GLFW's table knows which button of the pad it is. That shows whenever a button stays down for a frame. After
-// two such presses, short ones count, too; a single one may be two buttons that change places between two readings.
+// it, but only GLFW's table knows which button of the pad it is. That shows whenever a button stays down for a frame; two
+// such presses count, because a single one may be two buttons that change places between two readings. Until then a
+// button has its usual meaning, because the first press may be the one that stops the motors.
 class ShortPresses {
  public:
   // Call once per poll. `device`: the pad as a controller. Adds the short presses to the state that GLFW reports.
@@ -121,9 +149,14 @@ class ShortPresses {
     if (pressed && shown && device.tapped.empty()) learn(*pressed, *shown);
     held_ = std::move(held);
     pad_ = pad.buttons;
-    for (const std::size_t i : device.tapped)
-      if (const auto known = known_.find(i); known != known_.end() && known->second.times >= kTimes)
+    for (const std::size_t i : device.tapped) {
+      const auto known = known_.find(i);
+      const bool is_known = known != known_.end() && known->second.times >= kTimes;
+      if (is_known)
         pad.buttons[known->second.button] = 1;
+      else if (const auto usual = i < device.codes.size() ? usual_button(device.codes[i]) : std::nullopt)
+        pad.buttons[*usual] = 1;
+    }
   }
 
  private:
@@ -239,7 +272,7 @@ struct Controllers::Node {
   int descriptor = -1;
   bool is_gone = false;  // unplugged
   libevdev* device = nullptr;
-  std::vector<unsigned> axes, buttons, hats;  // the kernel's codes; of a hat, the code of its x axis
+  std::vector<unsigned> axes, hats;  // the kernel's codes; of a hat, the code of its x axis
 };
 
 void Controllers::Node::open_file() {
@@ -250,7 +283,7 @@ void Controllers::Node::open_file() {
   for (unsigned code = 0; code < ABS_CNT; ++code)
     if (has(EV_ABS, code) && (code < ABS_HAT0X || code > ABS_HAT3Y)) axes.push_back(code);
   for (unsigned code = BTN_MISC; code < KEY_CNT; ++code)
-    if (has(EV_KEY, code)) buttons.push_back(code);
+    if (has(EV_KEY, code)) state.codes.push_back(code);
   for (unsigned code = ABS_HAT0X; code <= ABS_HAT3X; code += 2)
     if (has(EV_ABS, code) || has(EV_ABS, code + 1)) hats.push_back(code);
 }
@@ -286,7 +319,7 @@ void Controllers::Node::read() {
     if (!is_down && was_down) state.tapped.push_back(state.buttons.size());
     state.buttons.push_back(is_down || was_down ? 1 : 0);
   };
-  for (const unsigned code : buttons)
+  for (const unsigned code : state.codes)
     add_button(libevdev_get_event_value(device, EV_KEY, code) != 0, newly_down.contains(code));
   for (const unsigned x : hats) {
     const auto add_direction = [&](unsigned code, bool is_positive) {

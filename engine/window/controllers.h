@@ -31,6 +31,7 @@ struct Controller {
   // since the last poll is 1.
   std::vector<unsigned char> buttons;
   std::vector<std::size_t> tapped;  // those of `buttons` that are up again
+  std::vector<unsigned> codes;      // the kernel's code of each button; the directions of hats have none
   std::optional<Gamepad> gamepad;   // if GLFW knows the model as a game pad
   bool can_be_read = true;          // false: the user lacks permission; there are no axes and no buttons
 };

@@ -322,11 +322,15 @@ def pad_drives_at_once(plugs, folder):
     for value in (64, 192, 0):  # the right trigger, which GLFW calls the sixth axis
         pad.axis(emulated.ABS_RZ, value)
         time.sleep(0.3)
-    tap(pad, 0)  # A
+    def tap_within_a_frame(button):
+        pad.button(button)
+        pad.button(button, False)
+        time.sleep(0.3)
+
+    tap_within_a_frame(0)  # A
     tap(pad, 0)
-    pad.button(0)  # shorter than a frame
-    pad.button(0, False)
-    time.sleep(0.3)
+    tap(pad, 0)
+    tap_within_a_frame(0)
     pad.axis(emulated.ABS_RX, 32767)  # the right stick
     trainer.wait_for("recording to")
     time.sleep(1.0)
@@ -336,8 +340,8 @@ def pad_drives_at_once(plugs, folder):
     rows = trainer.recording()
     check("the throttle follows the pad's trigger",
           [round(value, 2) for value in changes(values(rows, "throttle"))] == [0.0, 0.25, 0.75, 0.0])
-    check("A pulls the handbrake, also by a press that is shorter than a frame, and no other button does",
-          changes(values(rows, "hand_brake")) == [0.0, 1.0, 0.0, 1.0])
+    check("A moves the handbrake, also by presses that are shorter than a frame, and no other button does",
+          changes(values(rows, "hand_brake")) == [0.0, 1.0, 0.0, 1.0, 0.0])
     check("the stick moves the lever to the right", max(values(rows, "lever_x_mm")) > 10)
 
 

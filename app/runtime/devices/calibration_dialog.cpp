@@ -162,11 +162,11 @@ class DialogRunner {
   }
 
   // Repeats the question until it is answered with a number, or with two if `may_differ`: one for each axis. Empty if it
-  // is left out.
+  // is left out or was answered otherwise kMaxAnswers times.
   std::optional<glm::dvec2> ask_numbers(const std::string& question, double min, double max, std::string_view unit,
                                         bool may_differ = false) {
     const auto is_within = [&](double number) { return number >= min && number <= max; };
-    for (;;) {
+    for (int answers = 0; answers < kMaxAnswers; ++answers) {
       const std::string answer = dialog_.ask(fmt::format(
           "{} [{:g} to {:g} {}, - to leave it out: then the stick cannot be used]", question, min, max, unit));
       if (answer == "-") return std::nullopt;
@@ -181,6 +181,7 @@ class DialogRunner {
                                 haptics::printable(answer), may_differ ? "one or two numbers" : "a number", min, max,
                                 unit));
     }
+    return std::nullopt;
   }
 
   void run_numbers() {

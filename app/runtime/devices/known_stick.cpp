@@ -83,17 +83,21 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
     return axis.constant_limit == 0.0 ? std::string("not measured")
                                       : fmt::format("up to {:.0f} % of the magnitude", 100.0 * axis.constant_limit);
   });
-  per_axis("largest force",
-           [](const auto& axis) { return fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude()); });
+  per_axis("largest force", [](const auto& axis) {
+    return axis.constant_limit == 0.0 ? std::string("not measured")
+                                      : fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude());
+  });
   per_axis("handle", [](const auto& axis) {
     return axis.handle.mass == 0.0 ? std::string("not measured")
                                    : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m", axis.handle.mass,
                                                  axis.handle.damping, axis.handle.stiffness);
   });
   per_axis("dry friction", [](const auto& axis) {
+    if (axis.handle.mass == 0.0) return std::string("not measured");  // is measured with the handle
     return axis.friction == 0.0 ? std::string("none") : fmt::format("{:.2f} N", axis.friction);
   });
   per_axis("own centring", [](const auto& axis) {
+    if (axis.handle.mass == 0.0) return std::string("not measured");  // is measured with the handle
     return axis.own_spring == 0.0 ? std::string("none") : fmt::format("{:.0f} N/m", axis.own_spring);
   });
   if (!calibration.springs_refused.empty()) {

@@ -56,7 +56,16 @@ std::optional<ListedStick> listed(const haptics::UsbHidDevice& device, const std
   try {
     const haptics::ReportDescriptor descriptor = haptics::parse_report_descriptor(device.report_descriptor);
     const std::optional<haptics::LeverReport> lever = haptics::find_lever_report(descriptor);
-    if (!lever) return std::nullopt;
+    if (!lever) {
+      read_forces(descriptor, stick);
+      if (stick.force != StickForce::force_feedback) return std::nullopt;
+      stick.problem = fmt::format(
+          "{}: its motors cannot drive the lever, because it has no axes X and Y; without its forces it may be a "
+          "pedal, "
+          "a button or a lever: gearshift devices --controls",
+          stick_name(stick.identity));
+      return stick;
+    }
     stick.axes = lever->axes.size();
     stick.buttons = lever->buttons.size();
     read_forces(descriptor, stick);

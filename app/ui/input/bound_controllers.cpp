@@ -14,7 +14,9 @@ namespace {
 using engine::Controller;
 
 constexpr const char* kNoId = "0000:0000";  // of some makers' devices
-constexpr int kMaxOldButtons = 80;          // of a joystick, before Linux 6.15
+// DragonRise's encoder: GLFW's table has it as a pad, SDL has dropped it because makers wire it in different ways.
+constexpr const char* kGenericEncoder = "0079:0006";
+constexpr int kMaxOldButtons = 80;  // of a joystick, before Linux 6.15
 
 // A controller that the bindings name, and what it moves.
 struct NamedController {
@@ -111,11 +113,15 @@ std::string describe(const Bindings& bindings, const NamedController& named, con
 
 }  // namespace
 
+bool is_game_pad(const Controller& controller) noexcept {
+  return controller.gamepad && controller.id != kGenericEncoder;
+}
+
 std::vector<const Controller*> free_gamepads(const Bindings& bindings, const std::vector<Controller>& all) {
   const std::vector<NamedController> named = named_controllers(bindings);
   std::vector<const Controller*> pads;
   for (const Controller& one : all)
-    if (one.gamepad && !is_named(one, named, all)) pads.push_back(&one);
+    if (is_game_pad(one) && !is_named(one, named, all)) pads.push_back(&one);
   return pads;
 }
 
@@ -149,7 +155,7 @@ std::vector<const Controller*> unbound_controllers(const Bindings& bindings, con
   const std::vector<NamedController> named = named_controllers(bindings);
   std::vector<const Controller*> unbound;
   for (const Controller& one : all)
-    if (!one.gamepad && !is_named(one, named, all)) unbound.push_back(&one);
+    if (!is_game_pad(one) && !is_named(one, named, all)) unbound.push_back(&one);
   return unbound;
 }
 

@@ -10,6 +10,10 @@
 
 namespace gearshift::ui {
 
+// True if the controller surely is a game pad. GLFW also takes some encoder boards for one that people build into
+// shifters, hand brakes and button boxes.
+bool is_game_pad(const engine::Controller& controller) noexcept;
+
 // Returns the game pads to which the bindings of any game pad apply: those that the bindings do not name.
 std::vector<const engine::Controller*> free_gamepads(const Bindings& bindings,
                                                      const std::vector<engine::Controller>& all);

@@ -16,8 +16,6 @@ namespace {
 
 constexpr double kRestTime = 1.0;   // [s]
 constexpr int kMaxShippedGear = 6;  // of the shipped gates
-// DragonRise's encoder: GLFW's table has it as a pad, SDL has dropped it because makers wire it in different ways.
-constexpr const char* kGenericEncoder = "0079:0006";
 
 using Choice = ControlsSetup::Choice;
 using Answer = ControlsSetup::Answer;
@@ -67,7 +65,7 @@ void erase_hand_brake(Bindings& bindings) {
 }  // namespace
 
 bool can_be_set_up(const engine::Controller& controller) {
-  return controller.can_be_read && (!controller.gamepad || controller.id == kGenericEncoder);
+  return controller.can_be_read && !is_game_pad(controller);
 }
 
 std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::Controller>& all) {

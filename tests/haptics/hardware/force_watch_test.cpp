@@ -91,18 +91,17 @@ struct RandomDrive {
 struct Wrong {
   const char* name;
   dvec2 constants, conditions;
-  bool is_noticed;  // false: physically no difference from another hand
 };
 const std::vector<Wrong>& wrongs() {
-  static const std::vector<Wrong> all{{"reversed", {-1.0, -1.0}, {-1.0, -1.0}, true},
-                                      {"reversed in select", {-1.0, 1.0}, {-1.0, 1.0}, true},
-                                      {"reversed in shift", {1.0, -1.0}, {1.0, -1.0}, true},
-                                      {"springs reversed", {1.0, 1.0}, {-1.0, -1.0}, true},
-                                      {"silent", {0.0, 0.0}, {0.0, 0.0}, true},
-                                      {"silent in select", {0.0, 1.0}, {0.0, 1.0}, true},
-                                      {"silent in shift", {1.0, 0.0}, {1.0, 0.0}, true},
-                                      {"half", {0.5, 0.5}, {0.5, 0.5}, false},
-                                      {"double", {2.0, 2.0}, {2.0, 2.0}, false}};
+  static const std::vector<Wrong> all{{"reversed", {-1.0, -1.0}, {-1.0, -1.0}},
+                                      {"reversed in select", {-1.0, 1.0}, {-1.0, 1.0}},
+                                      {"reversed in shift", {1.0, -1.0}, {1.0, -1.0}},
+                                      {"springs reversed", {1.0, 1.0}, {-1.0, -1.0}},
+                                      {"silent", {0.0, 0.0}, {0.0, 0.0}},
+                                      {"silent in select", {0.0, 1.0}, {0.0, 1.0}},
+                                      {"silent in shift", {1.0, 0.0}, {1.0, 0.0}},
+                                      {"half", {0.5, 0.5}, {0.5, 0.5}},
+                                      {"double", {2.0, 2.0}, {2.0, 2.0}}};
   return all;
 }
 
@@ -363,8 +362,6 @@ TEST_CASE("a stick that drives otherwise than calibrated is switched off in a ra
         all += seeds;
         all_stopped += static_cast<unsigned>(times.size());
         all_asked += static_cast<unsigned>(asked);
-        if (!is_full_campaign()) continue;                        // one hand is no sample
-        if (!wrong.is_noticed) CHECK(2 * times.size() <= seeds);  // where this fails, force_watch.h says too little
       }
     }
     table += std::string(wrong.name) + " | all | all | " + std::to_string(all_stopped) + " of " + std::to_string(all) +

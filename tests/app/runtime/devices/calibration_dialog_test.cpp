@@ -276,6 +276,28 @@ TEST_CASE("every step may be left out, and the question says what that costs") {
   }
 }
 
+// "yes abc | gearshift devices --calibrate" must not fill a disk.
+TEST_CASE("no question is asked for ever") {
+  for (const char* question : {"RIGHT", "knob down", "along all its stops", "left stop", "back stop", "maximum force",
+                               "forces push", "how fast", "how strong", "how heavy", "springs and dampers"}) {
+    CAPTURE(question);
+    Rig rig;
+    CalibrationDialog dialog;
+    dialog.print = [](const std::string&) {};
+    dialog.save = [](const DeviceCalibration&) {};
+    int asked = 0;
+    dialog.ask = [&](const std::string& next) {
+      std::string line = rig.answer(next);
+      if (!rig.is_about(question)) return line;
+      if (++asked > 100) throw std::runtime_error("asked for ever");
+      return std::string("abc");
+    };
+    Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
+    CHECK_NOTHROW(calibrate(calibrator, rig.ability, dialog));
+    CHECK(asked > 1);
+  }
+}
+
 // A person who always presses Enter, with a stick that never moves.
 TEST_CASE("a step that is rejected three times is left out, and those that need it are not asked for") {
   Rig rig;

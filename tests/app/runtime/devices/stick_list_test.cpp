@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "app/runtime/devices/known_stick.h"
+#include "app/runtime/devices/open_stick.h"
 #include "tests/app/runtime/devices/described_sticks.h"
 #include "tests/support/temp_folder.h"
 
@@ -42,6 +43,19 @@ TEST_CASE(
   CHECK(describe_forces(sticks[2]) == "no force feedback");
   CHECK(sticks[2].buttons == 14);
   CHECK(describe_calibration(sticks[2]) == "-");
+}
+
+TEST_CASE("a wheel with motors but without Y is listed with the reason why it cannot be the lever") {
+  const TempFolder folder;
+  const UsbHidDevice wheel = usb_device("switchscience-ffb-steering-go", 0x2e8a, 0x1083, "Steering GO", "1-1");
+  const std::vector<ListedStick> sticks = list_sticks({&wheel, 1}, folder.path());
+  REQUIRE(sticks.size() == 1);
+  CHECK(sticks[0].force == StickForce::force_feedback);
+  CHECK(
+      sticks[0].problem ==
+      "Steering GO: its motors cannot drive the lever, because it has no axes X and Y; without its forces it may be a "
+      "pedal, a button or a lever: gearshift devices --controls");
+  CHECK_THROWS_WITH(check_has_forces(sticks[0]), sticks[0].problem.c_str());
 }
 
 TEST_CASE("a device that uses the force page only for rumble is distinguished from one with force feedback") {

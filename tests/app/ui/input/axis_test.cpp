@@ -130,6 +130,16 @@ TEST_CASE("an axis belongs to the n-th controller of its name, or to any game pa
   CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 1, .axis = 1}));
   CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 2}));
   CHECK(raw({.axis = 1}) == 0.4f);
-  bindings.controllers = {{{"a pad", ""}, 0, {}, {}}};  // a shifter whose encoder GLFW takes for a pad (0079:0006)
+  bindings.controllers = {{{"a pad", ""}, 0, {}, {}}};
   CHECK_FALSE(raw({.axis = 1}));
+}
+
+TEST_CASE("an encoder board that GLFW takes for a pad moves nothing until it is set up") {
+  Controller encoder = gamepad({1.0f, 1.0f});
+  encoder.id = "0079:0006";
+  const std::vector<Controller> all{encoder, gamepad({0.3f, 0.4f})};
+  Bindings bindings;
+  CHECK(free_gamepads(bindings, all) == std::vector{&all[1]});
+  CHECK(unbound_controllers(bindings, all) == std::vector{&all[0]});
+  CHECK(raw_value(bindings, {.axis = 1}, all) == doctest::Approx(0.4f));
 }
