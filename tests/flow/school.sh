@@ -185,6 +185,19 @@ check "a password on the command line stays there" test "$(grep -cF "$secret" er
 check "nor is it in a message" refused "authentication failed" report --database "postgresql://seat1:wrong-pass@127.0.0.1:$port/postgres"
 check "got: $(cat err)" test "$(grep -cF "wrong-" err)" -eq 0
 
+# TLS by libpq's own settings.
+export PGSSLMODE=verify-full PGSSLROOTCERT=$server/certificate
+check "the server's certificate is verified" "$gearshift" report --database "$instructor" >/dev/null
+openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 2 -subj /CN=school -keyout key \
+  -out other_certificate 2>/dev/null
+PGSSLROOTCERT=$work/other_certificate
+check "another one is refused in a sentence" refused "certificate verify failed" report --database "$instructor"
+lesson 2 Eve >>e.out 2>tls.err
+check "a seat keeps its runs meanwhile" grep -q "kept here and sent later" tls.err
+unset PGSSLMODE PGSSLROOTCERT
+lesson 2 Eve >>e.out 2>/dev/null
+check "and sends them" test "$(runs_of Eve)" -eq "$(told e.out)"
+
 # A copied history.
 mkdir -p seat4
 cp -r seat2/gearshift seat4/

@@ -4,7 +4,7 @@
 # Usage: postgres.sh new                    prints the server's folder, after creating and starting it
 #        postgres.sh start|stop|kill FOLDER   kill: as a power failure would
 #        postgres.sh remove FOLDER
-# FOLDER/port holds the port; the superuser is "owner", with the password in FOLDER/owner.
+# FOLDER/port holds the port; the superuser is "owner", with the password in FOLDER/owner. FOLDER/certificate is the server's.
 set -euo pipefail
 programs=$(compgen -G "/usr/lib/postgresql/*/bin" | sort -V | tail -n 1) || { echo "no PostgreSQL server found" >&2; exit 1; }
 [ "$(id -u)" -ne 0 ] || as_user=(setpriv --reuid=nobody --regid=nogroup --clear-groups)
@@ -17,7 +17,8 @@ run() { # program, arguments ...
 }
 start() {
   run pg_ctl start -D "$folder/data" -l "$folder/log" -w -t 60 -s \
-    -o "-p $(cat "$folder/port") -c listen_addresses=127.0.0.1 -c unix_socket_directories="
+    -o "-p $(cat "$folder/port") -c listen_addresses=127.0.0.1 -c unix_socket_directories= -c ssl=on \
+      -c ssl_cert_file='$folder/certificate' -c ssl_key_file='$folder/key'"
 }
 stop_with() { ! [ -e "$folder/data/postmaster.pid" ] || run pg_ctl stop -D "$folder/data" -m "$1" -w -s; }
 
@@ -27,6 +28,9 @@ case ${1:-} in
     folder=$(mktemp -d /tmp/gearshift_pg_XXXXXX)
     chmod 755 "$folder"
     head -c 12 /dev/urandom | base64 | tr '+/' '-_' >"$folder/owner"
+    openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 2 -subj /CN=school \
+      -addext subjectAltName=IP:127.0.0.1 -keyout "$folder/key" -out "$folder/certificate" 2>/dev/null
+    chmod 600 "$folder/key"
     [ "$(id -u)" -ne 0 ] || chown -R nobody:nogroup "$folder"
     run initdb -D "$folder/data" -U owner --pwfile="$folder/owner" -A scram-sha-256 -E UTF8 --locale=C.UTF-8 >/dev/null
     for _ in 1 2 3 4 5; do # another program may take the port in between
