@@ -223,6 +223,8 @@ const std::vector<Habit>& habits() {
       {"conditions on X only", [](Config& c) { c.habits.condition = ConditionLaw::x_only; }, "springs do not move"},
       {"conditions along the direction", [](Config& c) { c.habits.condition = ConditionLaw::along_direction; }},
       {"conditions times the direction", [](Config& c) { c.habits.condition = ConditionLaw::times_direction; }},
+      {"conditions always times the direction", [](Config& c) { c.habits.condition = ConditionLaw::direction_scales; },
+       "springs do not move the lever"},
       {"conditions on both axes", [](Config& c) { c.habits.condition = ConditionLaw::both_axes; }},
       {"no conditions", [](Config& c) { c.habits.condition = ConditionLaw::never; }, "springs do not move the lever"},
       {"one spring at a time", [](Config& c) { c.habits.condition = ConditionLaw::last_set; },

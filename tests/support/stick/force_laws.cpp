@@ -152,6 +152,8 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, const StickHabits& habit
     case ConditionLaw::times_direction:
       if (has_direction_bit(settings) && has_two) return own;
       return has_direction_bit(settings) ? direction * of(0, 0) * direction.x : own * -direction;
+    case ConditionLaw::direction_scales:
+      return own * direction;
     case ConditionLaw::last_set:
       return effect.last_set == 0 ? glm::dvec2(own.x, 0.0) : glm::dvec2(0.0, own.y);
     case ConditionLaw::never:

@@ -7,6 +7,7 @@
 //   [br]       ranenbg/Arduino-FFB-wheel 463a080
 //   [fino]     jmriego/Fino b686bc6
 //   [library]  YukMingLaw/ArduinoJoystickWithFFBLibrary ed86e27 (1.0.0)
+//   [moza]     measured on MOZA wheel bases (one axis): JacKeTUs/universal-pidff issue 1
 //   [pico]     nobonobo/pico-ffb-steering-wheel 6e08bff
 //   [saitek]   zanppa/hid-pidff 37709a8, a driver tried on the Cyborg Evo Force
 //   [stm]      billydragon/STM32_FFBJoystick 586a7c5
@@ -34,18 +35,19 @@ enum class ConstantLaw : std::uint8_t {
 
 // Which condition acts on which axis. A condition was set for one axis or for both.
 enum class ConditionLaw : std::uint8_t {
-  per_axis,         // PID 1.0 with axis bits; the direction bit enables both axes
-  board,            // condition 0 on both axes until condition 1 can make a force; times a factor from the direction,
-                    // unless both can make a force when the effect is set [board]
-  counted,          // axes byte 4: condition 0 on both axes, rotated, until two reports have arrived; the 8-bit count
-                    // wraps [library, stm]
-  exactly_4,        // axes byte 4: per axis; otherwise condition 0 on both axes, times the direction [fino]
-  x_only,           // condition 1 is not used [affb]
-  along_direction,  // direction bit: condition 0 along the direction; otherwise per axis [saitek]
-  times_direction,  // without the direction bit, times the components of the direction [sun]
-  both_axes,        // a condition without a direction acts on both axes [fino, by ../facts: one-condition effects]
-  last_set,         // only the axis whose condition was set last makes a force
-  never,            // conditions make no force [pico]
+  per_axis,          // PID 1.0 with axis bits; the direction bit enables both axes
+  board,             // condition 0 on both axes until condition 1 can make a force; times a factor from the direction,
+                     // unless both can make a force when the effect is set [board]
+  counted,           // axes byte 4: condition 0 on both axes, rotated, until two reports have arrived; the 8-bit count
+                     // wraps [library, stm]
+  exactly_4,         // axes byte 4: per axis; otherwise condition 0 on both axes, times the direction [fino]
+  x_only,            // condition 1 is not used [affb]
+  along_direction,   // direction bit: condition 0 along the direction; otherwise per axis [saitek]
+  times_direction,   // without the direction bit, times the components of the direction [sun]
+  direction_scales,  // always times the components of the direction, sign included [moza]
+  both_axes,         // a condition without a direction acts on both axes [fino, by ../facts: one-condition effects]
+  last_set,          // only the axis whose condition was set last makes a force
+  never,             // conditions make no force [pico]
 };
 
 enum class DeadBandLaw : std::uint8_t {
