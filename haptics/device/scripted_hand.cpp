@@ -50,7 +50,7 @@ ScriptedHand::ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStr
     : config_(config), period_(period), effort_decay_(std::exp(-period / kRelaxationTime)) {
   check(config, period);
   GaussianNoise noise(config.seed);
-  glm::dvec2 from = config.start;
+  glm::dvec2 from = config.start, push_from{0.0};
   double begin = 0.0;
   segments_.reserve(strokes.size());
   for (HandStroke& stroke : strokes) {
@@ -58,8 +58,9 @@ ScriptedHand::ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStr
     stroke.to.x += config.aim_noise * noise.next();
     stroke.to.y += config.aim_noise * noise.next();
     const double end = begin + stroke.duration + stroke.dwell;
-    segments_.push_back({begin, end, from, stroke});
+    segments_.push_back({begin, end, from, push_from, stroke});
     from = stroke.to;
+    push_from = stroke.push;
     begin = end;
   }
 }
@@ -74,7 +75,7 @@ HandTarget ScriptedHand::next(double time, glm::dvec2 lever) noexcept {
   if (!segments_.empty()) {
     const Segment& now = segment_at(time);
     target = minimum_jerk(now.from, now.stroke.to, time - now.begin, now.stroke.duration);
-    target.push = now.stroke.push;
+    target.push = minimum_jerk(now.push_from, now.stroke.push, time - now.begin, now.stroke.duration).position;
     target.pressed_down = now.stroke.pressed_down;
     target.lifted = now.stroke.lifted;
   }

@@ -20,7 +20,7 @@ struct HandStroke {
   glm::dvec2 to{0.0};     // [m] end point of the stroke in the gate plane
   double duration = 0.3;  // [s] > 0, duration of the movement
   double dwell = 0.1;     // [s] time at the end point before the next stroke
-  glm::dvec2 push{0.0};   // [N] constant push during stroke and dwell
+  glm::dvec2 push{0.0};   // [N] push at the end point; it grows from the previous stroke's as the hand moves
   bool pressed_down = false;
   bool lifted = false;
 };
@@ -60,6 +60,7 @@ class ScriptedHand final : public HandDriver {
     double begin = 0.0;  // [s]
     double end = 0.0;    // [s] end of the dwell
     glm::dvec2 from{0.0};
+    glm::dvec2 push_from{0.0};  // [N]
     HandStroke stroke;
   };
 

@@ -59,17 +59,10 @@ const FeelCurve& shift_curve(const Gate& gate, glm::dvec2 p) noexcept {
 // [m] an aisle's spring also acts this far outside the aisle, where rounding may leave the proxy
 constexpr double kEdge = 1e-9;
 
-bool is_in_aisle_of(const Gate& gate, const Slot& place, glm::dvec2 p) noexcept {
-  for (int i = 0; i < gate.aisle_count; ++i) {
-    if ((place.aisles >> i & 1u) != 0 && contains(whole(gate.aisle[static_cast<std::size_t>(i)]), p, kEdge))
-      return true;
-  }
-  return false;
-}
-
+// No aisle reaches into a place's circle that does not lead through the place, so the circle alone decides.
 int place_at(const Gate& gate, glm::dvec2 p) noexcept {
   for (int i = 0; i < gate.slot_count; ++i) {
-    if (depth_in(gate, i, p) > 0.0 && is_in_aisle_of(gate, slot_of(gate, i), p)) return i;
+    if (depth_in(gate, i, p) > 0.0) return i;
   }
   return kNoSlot;
 }

@@ -21,7 +21,7 @@ class StrokeWriter {
  public:
   StrokeWriter(dvec2 start, const ShiftStyle& style) : at_(start), style_(style) {}
 
-  // `push`: [N] of the hand during stroke and dwell
+  // `push`: [N] of the hand at `to`
   void move_to(dvec2 to, double dwell, dvec2 push = dvec2(0.0)) {
     const double distance = glm::distance(at_, to);
     if (distance < 1e-6) return;
@@ -170,13 +170,13 @@ bool needs_hold(const Gate& gate, LockoutKind kind, int left, const std::vector<
   });
 }
 
-// At each stop, the hand pushes against the springs; in the middle of a place, these are all that acts.
+// At each stop, the hand pushes against the springs; in the middle of a place, these are all that acts. It also waits at
+// turns for as long as in a gear, because the detent of a place that it just left may throw the lever past the turn.
 void shift_through_aisles(const Gate& gate, int slot, const ShiftStyle& style, StrokeWriter& writer) {
   const std::vector<RouteStop> route = route_to(gate, writer.at(), slot);
   const int left = slot_at(gate, writer.at());
   writer.hold(needs_hold(gate, LockoutKind::push_down, left, route), needs_hold(gate, LockoutKind::lift, left, route));
-  for (const RouteStop& stop : route)
-    writer.move_to(stop.at, stop.slot == kNoSlot ? style.dwell_neutral : style.dwell_gear, -gate_feel(gate, stop.at));
+  for (const RouteStop& stop : route) writer.move_to(stop.at, style.dwell_gear, -gate_feel(gate, stop.at));
   writer.hold(false, false);
 }
 

@@ -148,10 +148,10 @@ TEST_CASE("the spring of an aisle pulls to its point with the force of the file,
 
 TEST_CASE("in a cross gate the return force points to the middle from everywhere") {
   const Gate gate = shipped_gate("crane_cross");
-  for (const dvec2 p : {dvec2{0.0125, 0.0}, {-0.0125, 0.0}, {0.0, 0.0125}, {0.0, -0.0125}, {0.0123, 0.002}}) {
+  for (const dvec2 p : {dvec2{0.013, 0.0}, {-0.013, 0.0}, {0.0, 0.013}, {0.0, -0.013}, {0.0128, 0.002}}) {
     const dvec2 force = gate_feel(gate, p);
-    CHECK(glm::length(force) == Approx(5.0));
-    CHECK(glm::dot(force, p) == Approx(-5.0 * glm::length(p)));
+    CHECK(glm::length(force) == Approx(4.0));
+    CHECK(glm::dot(force, p) == Approx(-4.0 * glm::length(p)));
   }
 }
 

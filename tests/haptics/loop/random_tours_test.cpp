@@ -70,10 +70,8 @@ TEST_CASE("a hand is in front of a slot before it shifts into it: 500 random gat
   }
 }
 
-// A soft hand that a strong detent throws past a fork may end in the wrong branch, so not every tour must be complete.
-TEST_CASE("100 random trees and grids of oblique aisles: 97 hands reach every place in order, and nothing breaks") {
-  int complete = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+TEST_CASE("120 random trees and grids of oblique aisles: a hand reaches every place in order, and nothing breaks") {
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     CAPTURE(seed);
     SimulatedRunConfig config;
     config.gate = compile_gate(random_mechanism(seed), kPaperWorkspace);
@@ -94,7 +92,6 @@ TEST_CASE("100 random trees and grids of oblique aisles: 97 hands reach every pl
     auto next = wanted.begin();
     for (const int gear : events.engaged_gears())
       if (next != wanted.end() && *next == gear) ++next;
-    complete += next == wanted.end();
+    CHECK(next == wanted.end());
   }
-  CHECK(complete >= 97);
 }
