@@ -19,20 +19,28 @@ namespace gearshift::runtime {
 
 // A haptic loop with the load on its lever. A new loop is created when a recording starts.
 struct LoopRun {
-  // Gate, device and inputs must outlive this object. Without a car the lever has no load. Throws the same errors as
-  // HapticLoop.
+  // Gate, device and inputs must outlive this object. The load is the car, else `other`, else none. Throws the same
+  // errors as HapticLoop.
   LoopRun(const haptics::HapticConfig& config, const haptics::Gate& gate, haptics::HapticDevice& device,
           haptics::LoopInputs& inputs, std::uint64_t run_number, std::unique_ptr<vehicle::CarLoad> car_load = nullptr,
-          int start_gear = haptics::kNeutralGear)
-      : number(run_number), no_load(start_gear), car(std::move(car_load)), loop(config, gate, device, load(), inputs) {}
+          int start_gear = haptics::kNeutralGear, std::unique_ptr<haptics::LeverLoad> other_load = nullptr)
+      : number(run_number),
+        no_load(start_gear),
+        car(std::move(car_load)),
+        other(std::move(other_load)),
+        loop(config, gate, device, load(), inputs) {}
   LoopRun(const LoopRun&) = delete;
   LoopRun& operator=(const LoopRun&) = delete;
 
-  haptics::LeverLoad& load() noexcept { return car ? static_cast<haptics::LeverLoad&>(*car) : no_load; }
+  haptics::LeverLoad& load() noexcept {
+    if (car) return *car;
+    return other ? *other : no_load;
+  }
 
   std::uint64_t number;  // >= 1; distinguishes this run from those before and after it
   haptics::NoLoad no_load;
   std::unique_ptr<vehicle::CarLoad> car;  // null: no car
+  std::unique_ptr<haptics::LeverLoad> other;
   haptics::HapticLoop loop;
 };
 

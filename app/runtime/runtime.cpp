@@ -62,6 +62,11 @@ std::unique_ptr<vehicle::CarLoad> make_car(const RuntimeConfig& config, const ha
   return car;
 }
 
+std::unique_ptr<haptics::LeverLoad> make_other_load(const RuntimeConfig& config, const haptics::Gate& gate,
+                                                    const haptics::DeviceSpec& device) {
+  return config.load ? config.load(gate, device) : nullptr;
+}
+
 // Combines the driver's controls with the instructor's slope and guidance.
 haptics::DriverControls merged(const haptics::DriverControls& driver,
                                const haptics::DriverControls& instructor) noexcept {
@@ -130,7 +135,8 @@ haptics::Gate check_runtime(const RuntimeConfig& wanted) {
   haptics::HapticDevice& lever = real_device ? *real_device : *simulated;
   haptics::LoopInputs inputs;
   const LoopRun run(config.preset.haptics, gate, lever, inputs, 1,
-                    make_car(config, gate, lever.spec(), config.start, config.keyboard));
+                    make_car(config, gate, lever.spec(), config.start, config.keyboard), haptics::kNeutralGear,
+                    make_other_load(config, gate, lever.spec()));
   return gate;
 }
 
@@ -210,7 +216,8 @@ Runtime::State::State(const RuntimeConfig& wanted)
                             : std::make_unique<haptics::SimulatedLever>(config.preset.lever, period_ns, *hand)),
       lever(real_device ? *real_device : *simulated),
       run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, runner.inputs, 1,
-                                    make_car(config, gate, lever.spec(), config.start, config.keyboard))),
+                                    make_car(config, gate, lever.spec(), config.start, config.keyboard),
+                                    haptics::kNeutralGear, make_other_load(config, gate, lever.spec()))),
       admitted(run->loop.admitted()),
       reader(runner.stream) {
   const glm::dvec2 start = start_position();
@@ -250,7 +257,8 @@ std::unique_ptr<LoopRun> Runtime::State::make_run() {
   const vehicle::CarStart from = vehicle::start_from(newest.car);
   const int gear = haptics::is_sequential(gate) ? newest.cycle.out.gear : haptics::kNeutralGear;
   return std::make_unique<LoopRun>(running_config(), gate, lever, runner.inputs, run->number + 1,
-                                   make_car(config, gate, lever.spec(), from, newest.keyboard), gear);
+                                   make_car(config, gate, lever.spec(), from, newest.keyboard), gear,
+                                   make_other_load(config, gate, lever.spec()));
 }
 
 void Runtime::State::begin() {

@@ -43,9 +43,14 @@ using DriverFunction = std::function<vehicle::DriverAction(const vehicle::DriveS
 // a time. Throws std::invalid_argument with a one-sentence message.
 using LeverFactory = std::function<std::unique_ptr<haptics::HapticDevice>(double period)>;
 
+// Creates the load on the lever in place of a car. It must not move pedals.
+using LoadFactory =
+    std::function<std::unique_ptr<haptics::LeverLoad>(const haptics::Gate&, const haptics::DeviceSpec&)>;
+
 struct RuntimeConfig {
   haptics::GateLayout layout;
   std::optional<vehicle::CarSpec> car;  // the car that loads the lever; empty: no load
+  LoadFactory load;                     // if set: used in place of `car`, which must be empty
   vehicle::CarStart start;              // the car's initial state; the lever starts in the car's gear
   haptics::Pedals pedals;               // initial positions of the pedal axes and the hand brake
   haptics::Preset preset;               // a hand too soft to move the lever is replaced, see leading_hand()

@@ -10,6 +10,7 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_lesson_verb(app, action);
   add_drive_verb(app, action);
   add_tour_verb(app, action);
+  add_shifter_verb(app, action);
   add_render_verb(app, action);
   add_gate_verb(app, action);
   add_identify_verb(app, action);

@@ -28,6 +28,7 @@ void add_gate_verb(CLI::App& app, VerbAction& action);
 void add_lesson_verb(CLI::App& app, VerbAction& action);
 void add_drive_verb(CLI::App& app, VerbAction& action);
 void add_tour_verb(CLI::App& app, VerbAction& action);
+void add_shifter_verb(CLI::App& app, VerbAction& action);
 void add_identify_verb(CLI::App& app, VerbAction& action);
 void add_stability_verb(CLI::App& app, VerbAction& action);
 void add_contact_verb(CLI::App& app, VerbAction& action);

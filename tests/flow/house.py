@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-APP = {"base", "cabin", "demo", "lab", "lessons", "package", "runtime", "session", "ui", "vehicle", "verbs"}
+APP = {"base", "cabin", "demo", "lab", "lessons", "package", "runtime", "session", "shifter", "ui", "vehicle", "verbs"}
 RETIRED = re.compile(r"\bk(?:Most|Least)[A-Z]\w*|\b\w+_words\(")
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
 

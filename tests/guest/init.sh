@@ -6,6 +6,7 @@ $b mount -t proc proc /proc
 $b mount -t sysfs sys /sys
 $b mount -t devtmpfs dev /dev
 $b mount -t tmpfs tmp /tmp
+$b ifconfig lo up
 failed=0
 while read -r module; do $b insmod "/modules/$module.ko" || failed=1; done </modules/order
 while read -r program; do

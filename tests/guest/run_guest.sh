@@ -7,7 +7,7 @@ set -euo pipefail
 folder=$1 sources=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-modules=(usb-common usbcore usbip-core vhci-hcd hid usbhid hid-generic evdev)
+modules=(usb-common usbcore usbip-core vhci-hcd hid usbhid hid-generic evdev uinput)
 mkdir -p "$folder"
 cd "$folder"
 
@@ -45,7 +45,7 @@ cp "$here/init.sh" root/init
 chmod +x root/init
 for module in "${modules[@]}"; do cp "kernel/$module.ko" root/modules/; echo "$module"; done >root/modules/order
 cp -r "$sources/tests/data/hid" "root$sources/tests/data/"
-cp -r "$sources"/assets/{gates,presets} "root$sources/assets/"
+cp -r "$sources"/assets/{gates,presets,cars} "root$sources/assets/"
 : >root/tests
 for program in "$@"; do copy_program $program; done  # unquoted, to split it into words
 (cd root && find . | busybox cpio -o -H newc 2>/dev/null | gzip -1) >initrd
