@@ -154,7 +154,7 @@ DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress) {
   }
   record_sound(setup, tour.film, progress);
 
-  std::vector<Shot> shots = tour_shots(tour.film);
+  std::vector<Shot> shots = tour_shots(tour.film, setup.tour.gate);
   result.chapters.push_back(tour_chapter(tour, car));
   add_pictures(shots, result.chapters.back());
   for (const DemoLesson& lesson : lessons) {

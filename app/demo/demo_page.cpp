@@ -53,10 +53,11 @@ std::string facts(const DemoSetup& setup, const DemoResult& result) {
   return table + "</table>\n";
 }
 
-std::string gear_table(const lab::TourResult& tour) {
+std::string gear_table(const lab::TourResult& tour, const haptics::Gate& gate) {
   std::string table = "<table>\n<tr><th>Gear</th><th>Engaged at</th></tr>\n";
   for (const lab::GearTime& gear : tour.engaged)
-    table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n", haptics::gear_name(gear.gear), gear.time);
+    table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n",
+                         base::html_text(haptics::gear_label(gate, gear.gear)), gear.time);
   return table + "</table>\n";
 }
 
@@ -97,7 +98,7 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
   }
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
   out << "<section>\n<h2>Lever and force, by a scripted hand</h2>\n<div class=\"plots\">\n"
-      << facts(setup, result) << gear_table(result.tour) << "</div>\n<div class=\"plots\">\n"
+      << facts(setup, result) << gear_table(result.tour, setup.tour.gate) << "</div>\n<div class=\"plots\">\n"
       << figure("trajectory.svg", "Paths of the real lever and the drawn lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "</div>\n<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, "

@@ -1,6 +1,7 @@
 #include "app/demo/shots.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -67,9 +68,17 @@ const FilmFrame& before(std::span<const FilmFrame> film, const lab::GearTime& ge
   return &in == film.data() ? in : *(&in - 1);
 }
 
+// A file's name for the gear's picture: with its label if that is of letters and digits.
+std::string picture_name(const haptics::Gate& gate, int gear) {
+  const std::string label = haptics::gear_label(gate, gear);
+  const bool is_plain =
+      std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
+  return is_plain ? "gear_" + label : fmt::format("place_{}", haptics::slot_of_gear(gate, gear) + 1);
+}
+
 }  // namespace
 
-std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
+std::vector<Shot> tour_shots(std::span<const FilmFrame> film, const haptics::Gate& gate) {
   const std::vector<lab::GearTime> came = gears_of(film);
   std::vector<lab::GearTime> gears;  // only the first engagement of each gear
   for (const lab::GearTime& gear : came) {
@@ -79,8 +88,8 @@ std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
   std::vector<Shot> shots;
   shots.push_back({"cabin", "The cabin before the first shift", &film.front(), "driver"});
   for (const lab::GearTime& gear : gears) {
-    const std::string name = haptics::gear_name(gear.gear);
-    shots.push_back({fmt::format("gear_{}", name), fmt::format("Gear {} engaged after {:.2f} s", name, gear.time),
+    const std::string name = haptics::gear_label(gate, gear.gear);
+    shots.push_back({picture_name(gate, gear.gear), fmt::format("Gear {} engaged after {:.2f} s", name, gear.time),
                      &frame_at(film, gear.time + kRestDelay), "gate"});
   }
   const FilmFrame& deepest = deepest_frame(film);
@@ -90,20 +99,21 @@ std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
                    "stays in the gate",
                    1e3 * depth_beyond_wall(deepest), glm::length(deepest.lever.commanded)),
        &deepest, "gate"});
-  if (gears.size() > 1) {
+  if (gears.size() > 1 && !haptics::is_mechanism(gate)) {
     shots.push_back({"gearbox",
                      fmt::format("Cutaway view of the gearbox between gears {} and {}",
-                                 haptics::gear_name(gears[0].gear), haptics::gear_name(gears[1].gear)),
+                                 haptics::gear_label(gate, gears[0].gear), haptics::gear_label(gate, gears[1].gear)),
                      &before(film, gears[1]), "gearbox"});
-    shots.push_back({"gearbox_in", fmt::format("The gearbox in gear {}", haptics::gear_name(gears[1].gear)),
+    shots.push_back({"gearbox_in", fmt::format("The gearbox in gear {}", haptics::gear_label(gate, gears[1].gear)),
                      &frame_at(film, gears[1].time + kRestDelay), "gearbox"});
   }
   if (gears.empty()) return shots;
   const lab::GearTime& middle = gears[gears.size() / 2];
-  shots.push_back({"hand", fmt::format("The hand on the lever, in gear {}", haptics::gear_name(middle.gear)),
+  shots.push_back({"hand", fmt::format("The hand on the lever, in gear {}", haptics::gear_label(gate, middle.gear)),
                    &frame_at(film, middle.time + kHandDelay), "lever"});
   shots.push_back({"cluster", speeds(fastest_frame(film)), &fastest_frame(film), "cluster"});
-  shots.push_back({"driver", fmt::format("Gear {}, seen from the driver's seat", haptics::gear_name(gears.back().gear)),
+  shots.push_back({"driver",
+                   fmt::format("Gear {}, seen from the driver's seat", haptics::gear_label(gate, gears.back().gear)),
                    &frame_at(film, gears.back().time + kRestDelay), "driver"});
   return shots;
 }

@@ -18,9 +18,9 @@ struct Shot {
 
 // In the two functions below, the film must not be empty and must outlive the shots.
 
-// Shots of a drive through every gear: the cabin, each gear as it engages, the hand pushing into a wall, the gearbox
-// between two gears and in gear, the hand, the instruments.
-std::vector<Shot> tour_shots(std::span<const FilmFrame> film);
+// Shots of a drive through every gear of the gate: the cabin, each gear as it engages, the hand pushing into a wall, the
+// gearbox, if it has one, between two gears and in gear, the hand, the instruments.
+std::vector<Shot> tour_shots(std::span<const FilmFrame> film, const haptics::Gate& gate);
 // Shots of a lesson: the bite point while the handbrake still holds the car, a blocking synchroniser ring and then the
 // engaged dogs, the highest speed. Moments that do not occur in the drive are left out. `lesson`: prefix for the names
 // of the shots.

@@ -26,6 +26,7 @@ std::vector<int> gears_of(const haptics::GateLayout& layout) {
 }
 
 bool has_gears_of(const vehicle::CarSpec& car, const haptics::GateLayout& layout) {
+  if (!layout.aisles.empty()) return false;  // no car has a gate of aisles
   const std::vector<int> gears = gears_of(layout);
   return std::all_of(gears.begin(), gears.end(), [&car](int gear) {
     return gear == haptics::kNeutralGear || vehicle::shaft_per_road(car, gear) != 0.0;
@@ -34,7 +35,7 @@ bool has_gears_of(const vehicle::CarSpec& car, const haptics::GateLayout& layout
 
 // Lessons teach gates with a slot per gear.
 bool has_gears_of(const haptics::GateLayout& layout, const lessons::Lesson& lesson) {
-  if (layout.sequential_gears > 0) return false;
+  if (layout.sequential_gears > 0 || !layout.aisles.empty()) return false;
   const std::vector<int> gears = gears_of(layout);
   const auto has = [&gears](int gear) { return std::find(gears.begin(), gears.end(), gear) != gears.end(); };
   return has(lesson.start.gear) &&
@@ -44,7 +45,7 @@ bool has_gears_of(const haptics::GateLayout& layout, const lessons::Lesson& less
 }
 
 haptics::GateLayout read_gate(const std::string& name) {
-  return haptics::read_gearbox_layout(base::find_asset("gates", name));
+  return haptics::read_gate_layout(base::find_asset("gates", name));
 }
 
 vehicle::CarSpec read_shipped_car(const std::string& name) {
@@ -53,17 +54,10 @@ vehicle::CarSpec read_shipped_car(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> gearbox_names() {
-  std::vector<std::string> names = base::shipped_names("gates");
-  std::erase_if(names, [](const std::string& name) {
-    return !haptics::read_gate_layout(base::find_asset("gates", name)).aisles.empty();
-  });
-  return names;
-}
-
 ResolvedCar resolve_car(const SessionChoice& choice) {
   ResolvedCar chosen;
-  chosen.car = choice.car.empty() ? std::string(kDefaultCar) : choice.car;
+  const bool has_car = choice.gate.empty() || read_gate(choice.gate).aisles.empty();
+  chosen.car = !choice.car.empty() ? choice.car : has_car ? std::string(kDefaultCar) : std::string(kNoCar);
   if (chosen.car != kNoCar) chosen.spec = read_shipped_car(chosen.car);
   chosen.gate = choice.gate;
   if (chosen.gate.empty()) chosen.gate = chosen.spec ? chosen.spec->gate : "paper";
@@ -85,7 +79,7 @@ SessionChoice with_gate(SessionChoice choice, const std::string& gate) {
 
 SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson) {
   if (!lesson.car.empty()) choice.car = lesson.car;
-  if (choice.car == kNoCar) choice.car = kDefaultCar;
+  if (choice.car.empty() || choice.car == kNoCar) choice.car = kDefaultCar;  // a gate of aisles has none by itself
   const vehicle::CarSpec car = *resolve_car(choice).spec;
   if (!lesson.gate.empty()) choice.gate = lesson.gate;
   if (choice.gate.empty()) choice.gate = car.gate;
@@ -98,7 +92,9 @@ SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson) {
 std::string describe_replaced_gate(const SessionChoice& choice, const SessionChoice& with,
                                    const lessons::Lesson& lesson) {
   if (choice.gate.empty() || !lesson.gate.empty() || with.gate == choice.gate) return {};
-  const char* needs = read_gate(choice.gate).sequential_gears > 0 ? "a slot for each gear" : "other gears";
+  const haptics::GateLayout layout = read_gate(choice.gate);
+  const bool has_slots = layout.sequential_gears == 0 && layout.aisles.empty();
+  const char* needs = has_slots ? "other gears" : "a slot for each gear";
   return fmt::format("This lesson needs {}, so the gate is {} instead of {}.", needs, with.gate, choice.gate);
 }
 

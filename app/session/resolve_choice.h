@@ -21,10 +21,7 @@ struct ResolvedCar {
   haptics::GateLayout layout;
 };
 
-// Names of the shipped gates that a trainer can have: without mechanisms of aisles. Throws FileError.
-std::vector<std::string> gearbox_names();
-
-// Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
+// Replaces empty names in the choice: the car by the default car, or none in a gate of aisles, the gate by the car's. Throws FileError or
 // std::runtime_error with a one-sentence message.
 ResolvedCar resolve_car(const SessionChoice& choice);
 

@@ -46,7 +46,7 @@ Session::Session(const SessionChoice& choice)
   why_silent_ = sound_.silence_reason();
   const bool missed = choice.sound == engine::SoundOutput::card && !why_silent_.empty();
   if (missed && message_.empty()) message_ = why_silent_;
-  panel_.gates = gearbox_names();
+  panel_.gates = base::shipped_names("gates");
   panel_.presets = preset_names();
   panel_.cars = base::shipped_names("cars");
   panel_.cars.emplace_back(kNoCar);

@@ -114,7 +114,7 @@ class WindowTrainer {
     act();
     set_driver();
     beside_input([this] { session_.advance(seconds_); });
-    print_events(session_.events(), !session_.runtime().device().measures_hand_force);
+    print_events(session_.events(), !session_.runtime().device().measures_hand_force, session_.runtime().gate());
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
     print_session_message();
     const ui::PanelCommands commands = draw_panel();
@@ -523,7 +523,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   const auto wants_more = [&] { return session.time() < offscreen.seconds && !is_done(session); };
   while (wants_more() && !base::StopSignals::requested()) {
     session.advance(seconds);
-    print_events(session.events(), !session.runtime().device().measures_hand_force);
+    print_events(session.events(), !session.runtime().device().measures_hand_force, session.runtime().gate());
     print_lines(lines.new_lines(session.coach().view()), session.lever_time());
     draw();
     session.update_cabin();

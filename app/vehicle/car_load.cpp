@@ -123,6 +123,8 @@ const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, doub
 }
 
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate) {
+  if (haptics::is_mechanism(gate))
+    throw std::invalid_argument(fmt::format("a gate of aisles works without a car, not with \"{}\"", car.name));
   const haptics::Gate sleeves = sleeves_of(gate);
   for (const haptics::Slot& slot : haptics::slots(sleeves)) {
     if (shaft_per_road(car, slot.gear) != 0.0) continue;

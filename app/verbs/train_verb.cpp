@@ -11,6 +11,7 @@
 #include "app/base/user_folders.h"
 #include "app/runtime/devices/open_stick.h"
 #include "app/session/bindings_file.h"
+#include "app/session/resolve_choice.h"
 #include "app/session/train.h"
 #include "app/verbs/history_choice.h"
 #include "app/verbs/lesson_options.h"
@@ -107,7 +108,8 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
   setup.panel = !arguments.no_panel && !arguments.stereo;
   setup.replay = arguments.replay;
-  if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = session::kNoLesson;
+  const bool can_teach = setup.replay.empty() && session::resolve_car(setup.choice).layout.aisles.empty();
+  if (!can_teach && setup.choice.lesson.empty()) setup.choice.lesson = session::kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
   setup.from = arguments.from;
   setup.choice.drive = drive_side(arguments, cabin::DriveSide::left);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -29,6 +30,18 @@ inline double position_along(const Aisle& aisle, glm::dvec2 p) noexcept {
 inline double distance_to(const Aisle& aisle, glm::dvec2 p) noexcept {
   const double s = std::clamp(position_along(aisle, p), 0.0, aisle.length);
   return glm::distance(p, aisle.from + s * aisle.along);
+}
+
+// The largest distances [m] of a wall from the origin, sideways and fore and aft, in a gate of any kind.
+inline glm::dvec2 half_extent(const Gate& gate) noexcept {
+  glm::dvec2 reach{std::max(-gate.select_min, gate.select_max), gate.half_aisle};
+  if (!is_mechanism(gate)) {
+    for (const Slot& slot : slots(gate)) reach.y = std::max(reach.y, slot.end);
+    return reach;
+  }
+  for (const Aisle& aisle : aisles(gate))
+    reach = glm::max(reach, glm::max(glm::abs(aisle.from), glm::abs(aisle.to)) + aisle.half_width);
+  return reach;
 }
 
 // A part of an aisle that ends at lockouts: all points within the aisle's half width of the line from `low` to `high`.

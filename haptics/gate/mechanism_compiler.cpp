@@ -225,6 +225,9 @@ void add_spring(const GateLayout& layout, std::size_t index, Gate& gate) {
     add_stretch(stretch, from.spring_to, from.spring_force, aisle.length, all);
   for (const FeelKnot& knot : all)  // neighbouring pieces share a knot
     if (knots.empty() || knot.at > knots.back().at + 1e-9) knots.push_back(knot);
+  if (knots.empty())
+    reject(layout, from.line,
+           "spring_n would have no effect, because other aisles meet this one along its whole length");
   if (knots.size() > kMaxFeelKnots) reject(layout, from.line, "too many aisles meet this one for it to have a spring");
   aisle.spring = make_feel_curve(knots);
   if (steepest(aisle.spring) > kMaxFeelSlope)

@@ -47,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Telemetry before = filter.at(now);
     filter.receive(packet, rest[1] % 4u, now);
     const Telemetry after = filter.at(now);
+    accepted_inputs += parse_outgauge(packet) ? 1 : 0;
     if (!parse_outgauge(packet)) check_invariant(after.is_live == before.is_live, "a refused packet changes nothing");
     check_invariant(std::isfinite(after.car.speed) && std::isfinite(after.car.engine_speed), "telemetry is finite");
     now += 0.001 * rest[1];

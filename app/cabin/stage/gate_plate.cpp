@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -65,8 +66,25 @@ double label_room(const haptics::Gate& gate) {
   return room;
 }
 
+// The label of a place in a gate of aisles, as written in the file.
+void add_place_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeGeometry& yoke,
+                     const haptics::Slot& place) {
+  constexpr double kMaxLength = 0.016;  // [m]
+  const std::string label = haptics::gear_label(gate, place.gear);
+  const double height = std::min(0.8 * kSign, kMaxLength / text_length(label));
+  const double enlarged = yoke.radius / kPlateHeight;  // what is on the plate, seen at the knob
+  const glm::dvec2 size = enlarged * height * glm::dvec2(text_length(label), 1.0);
+  const glm::dvec2 centre = plate_point(
+      yoke, label_place(gate, place, size, enlarged * (plate.opening.widened + 0.6 * kSignGap)), kPlateHeight);
+  plate.labels.push_back({place.gear, centre, std::max(height, height * text_length(label))});
+  const glm::vec3 colour = place.gear == haptics::kReverseGear ? kReverseInk : kInk;
+  for (const Stroke& stroke : text_strokes(label, centre, height, 0.16 * height, colour))
+    add_flat(plate.ink, stroke_triangles(stroke), kPlateHeight + kInkAbove, linear_rgba(colour));
+}
+
 void add_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeGeometry& yoke,
                const haptics::Slot& slot) {
+  if (haptics::is_mechanism(gate)) return add_place_label(plate, gate, yoke, slot);
   const double side = static_cast<int>(slot.side);
   const double x = haptics::column_of(gate, slot.column).center;
   const glm::dvec2 end = plate_point(yoke, {x, side * slot.end}, kPlateHeight);

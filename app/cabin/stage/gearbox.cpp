@@ -167,8 +167,10 @@ void Gearbox::add_to(engine::Model& model, const engine::Model& gear_model, cons
   }
   for (int i = first; i < end; ++i) {
     engine::Node& node = model.nodes[static_cast<std::size_t>(i)];
-    if (node.name != "Finger") node.mesh = engine::kNone;  // hides the originals from which the sets were copied
+    if (node.name != "Finger" || gate.column_count == 0)
+      node.mesh = engine::kNone;  // hides the originals from which the sets were copied
   }
+  if (gate.column_count == 0) return;  // a gate of aisles moves no rails
   engine::Material white;
   white.name = "GearboxInk";
   white.metallic = 0.0f;
@@ -228,6 +230,7 @@ void Gearbox::place(const haptics::Gate& gate, glm::dvec2 lever, const vehicle::
     node(set.sleeve).rotation = node(set.hub).rotation = turned;
     turn_gears(gate, column, shift, car, step, set, pose);
   }
+  if (gate.column_count == 0) return;
   const auto across = static_cast<float>(finger_x(gate, lever.x));
   node(finger_).translation = rest_[static_cast<std::size_t>(finger_)].translation + glm::vec3(across, 0.0f, 0.0f);
   node(finger_).rotation = turned_about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));

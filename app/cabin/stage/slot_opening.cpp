@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/gate_description.h"
 
 namespace gearshift::cabin {
@@ -50,8 +51,25 @@ double longest_section(const haptics::Gate& gate, const haptics::YokeGeometry& y
   return longest;
 }
 
+// Smallest distance [m] between two aisles that do not meet.
+double thinnest_wall_of_aisles(const haptics::Gate& gate) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  const auto all = haptics::aisles(gate);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (haptics::meeting_point(all[i], all[k])) continue;
+      const double apart =
+          std::min({haptics::distance_to(all[i], all[k].from), haptics::distance_to(all[i], all[k].to),
+                    haptics::distance_to(all[k], all[i].from), haptics::distance_to(all[k], all[i].to)});
+      thinnest = std::min(thinnest, apart - all[i].half_width - all[k].half_width);
+    }
+  }
+  return thinnest;
+}
+
 // Smallest distance [m] between two neighbouring slots, measured at the knob.
 double thinnest_wall(const haptics::Gate& gate) {
+  if (haptics::is_mechanism(gate)) return thinnest_wall_of_aisles(gate);
   double thinnest = std::numeric_limits<double>::infinity();
   for (int i = 0; i + 1 < gate.column_count; ++i) {
     const haptics::Column& a = haptics::column_of(gate, i);

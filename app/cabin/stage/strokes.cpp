@@ -1,17 +1,22 @@
 #include "app/cabin/stage/strokes.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "haptics/gate/aisle.h"
 
 namespace gearshift::cabin {
 namespace {
 
 constexpr double kSharp = 0.7;  // cosine of the largest turn that is mitred; sharper turns get two rounded ends
 constexpr int kCapSteps = 6;
+constexpr double kGap = 0.24;  // between two characters of a text, relative to its height
 
 // Adds an arc from angle `from` to angle `to` [deg], counter-clockwise if from < to.
 void arc(Line& line, glm::dvec2 centre, glm::dvec2 radii, double from, double to) {
@@ -42,6 +47,86 @@ std::vector<Line> arched(double stem, int arches, double width) {
     lines.push_back(line);
   }
   return lines;
+}
+
+// The glyph of a capital letter that is no other glyph.
+std::vector<Line> capital(char letter) {
+  Line a, b;
+  switch (letter) {
+    case 'A':
+      return {{{0.02, 0.0}, {0.30, 1.0}, {0.58, 0.0}}, {{0.13, 0.36}, {0.47, 0.36}}};
+    case 'B':
+      arc(a, {0.30, 0.76}, {0.24, 0.24}, 90.0, -90.0);
+      arc(b, {0.30, 0.26}, {0.28, 0.26}, 90.0, -90.0);
+      a.insert(a.begin(), {{0.06, 0.0}, {0.06, 1.0}});
+      a.emplace_back(0.06, 0.52);
+      b.emplace_back(0.06, 0.0);
+      return {a, b};
+    case 'C':
+      arc(a, {0.32, 0.50}, {0.28, 0.50}, 50.0, 310.0);
+      return {a};
+    case 'D':
+      a = {{0.06, 0.0}, {0.06, 1.0}};
+      arc(a, {0.20, 0.50}, {0.38, 0.50}, 90.0, -90.0);
+      a.emplace_back(0.06, 0.0);
+      return {a};
+    case 'E':
+      return {{{0.54, 1.0}, {0.08, 1.0}, {0.08, 0.0}, {0.56, 0.0}}, {{0.08, 0.52}, {0.46, 0.52}}};
+    case 'F':
+      return {{{0.54, 1.0}, {0.08, 1.0}, {0.08, 0.0}}, {{0.08, 0.52}, {0.46, 0.52}}};
+    case 'G':
+      arc(a, {0.32, 0.50}, {0.28, 0.50}, 50.0, 330.0);
+      a.insert(a.end(), {{0.57, 0.46}, {0.34, 0.46}});
+      return {a};
+    case 'H':
+      return {{{0.06, 0.0}, {0.06, 1.0}}, {{0.54, 0.0}, {0.54, 1.0}}, {{0.06, 0.52}, {0.54, 0.52}}};
+    case 'I':
+      return {{{0.30, 0.0}, {0.30, 1.0}}};
+    case 'J':
+      a = {{0.50, 1.0}};
+      arc(a, {0.27, 0.25}, {0.23, 0.25}, 0.0, -180.0);
+      return {a};
+    case 'K':
+      return {{{0.06, 0.0}, {0.06, 1.0}}, {{0.54, 1.0}, {0.06, 0.40}}, {{0.22, 0.60}, {0.58, 0.0}}};
+    case 'L':
+      return {{{0.08, 1.0}, {0.08, 0.0}, {0.54, 0.0}}};
+    case 'M':
+      return {{{0.02, 0.0}, {0.02, 1.0}, {0.30, 0.35}, {0.58, 1.0}, {0.58, 0.0}}};
+    case 'O':
+      arc(a, {0.30, 0.50}, {0.29, 0.50}, 90.0, 450.0);
+      return {a};
+    case 'P':
+      a = {{0.06, 0.0}, {0.06, 1.0}};
+      arc(a, {0.30, 0.74}, {0.26, 0.26}, 90.0, -90.0);
+      a.emplace_back(0.06, 0.48);
+      return {a};
+    case 'Q':
+      arc(a, {0.30, 0.50}, {0.29, 0.50}, 90.0, 450.0);
+      return {a, {{0.36, 0.24}, {0.58, -0.04}}};
+    case 'S':
+      arc(a, {0.30, 0.755}, {0.25, 0.245}, 40.0, 270.0);
+      arc(a, {0.30, 0.255}, {0.27, 0.255}, 90.0, -150.0);
+      return {a};
+    case 'T':
+      return {{{0.02, 1.0}, {0.58, 1.0}}, {{0.30, 1.0}, {0.30, 0.0}}};
+    case 'U':
+      a = {{0.06, 1.0}};
+      arc(a, {0.30, 0.26}, {0.24, 0.26}, 180.0, 360.0);
+      a.emplace_back(0.54, 1.0);
+      return {a};
+    case 'V':
+      return {{{0.02, 1.0}, {0.30, 0.0}, {0.58, 1.0}}};
+    case 'W':
+      return {{{0.0, 1.0}, {0.15, 0.0}, {0.30, 0.65}, {0.45, 0.0}, {0.60, 1.0}}};
+    case 'X':
+      return {{{0.04, 0.0}, {0.56, 1.0}}, {{0.04, 1.0}, {0.56, 0.0}}};
+    case 'Y':
+      return {{{0.02, 1.0}, {0.30, 0.48}, {0.58, 1.0}}, {{0.30, 0.48}, {0.30, 0.0}}};
+    case 'Z':
+      return {{{0.04, 1.0}, {0.56, 1.0}, {0.04, 0.0}, {0.56, 0.0}}};
+    default:
+      return {{{0.0, 0.0}, {0.6, 0.0}, {0.6, 1.0}, {0.0, 1.0}, {0.0, 0.0}}};
+  }
 }
 
 // The glyph of a character, in a box that is 0.6 wide (m: 0.9) and 1 high. An unknown one is a box.
@@ -113,8 +198,13 @@ std::vector<Line> glyph(char character) {
     case 'x':
       return {{{0.08, 0.0}, {0.52, kLetter}}, {{0.08, kLetter}, {0.52, 0.0}}};
     default:
-      return {{{0.0, 0.0}, {0.6, 0.0}, {0.6, 1.0}, {0.0, 1.0}, {0.0, 0.0}}};
+      break;
   }
+  if (character < 'a' || character > 'z') return capital(character);
+  std::vector<Line> small = glyph(static_cast<char>(character - 'a' + 'A'));
+  for (Line& line : small)
+    for (glm::dvec2& p : line) p.y *= kLetter;
+  return small;
 }
 
 double width_of(char character) {
@@ -194,13 +284,16 @@ double stroke_coverage(const Stroke& stroke, glm::dvec2 p, double pixel) noexcep
   return std::clamp(0.5 + (0.5 * stroke.width - nearest) / pixel, 0.0, 1.0);
 }
 
+double text_length(std::string_view text) noexcept {
+  double length = kGap * (static_cast<double>(text.size()) - 1.0);
+  for (const char character : text) length += width_of(character);
+  return length;
+}
+
 std::vector<Stroke> text_strokes(std::string_view text, glm::dvec2 centre, double height, double width,
                                  glm::vec3 colour) {
-  constexpr double kGap = 0.24;
-  double length = kGap * static_cast<double>(text.size() - 1);
-  for (const char character : text) length += width_of(character);
   std::vector<Stroke> strokes;
-  double left = -0.5 * length;
+  double left = -0.5 * text_length(text);
   for (const char character : text) {
     for (Line& line : glyph(character)) {
       for (glm::dvec2& p : line) p = centre + height * (p + glm::dvec2(left, -0.5));
@@ -216,7 +309,86 @@ std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, doubl
   return text_strokes({&label, 1}, centre, height, width, colour);
 }
 
+// Of the positions round the place, the one in which the label lies farthest from all aisles, but not farther than `gap`;
+// of these, one near the place and near the gate's middle, so that the plate stays small.
+glm::dvec2 label_place(const haptics::Gate& gate, const haptics::Slot& place, glm::dvec2 size, double gap) {
+  constexpr int kDirections = 16, kDistances = 5;
+  constexpr double kStep = 0.003;  // [m] between two distances
+  double half_width = 0.0;
+  for (int i = 0; i < gate.aisle_count; ++i)
+    if ((place.aisles >> i & 1u) != 0)
+      half_width = std::max(half_width, gate.aisle[static_cast<std::size_t>(i)].half_width);
+  glm::dvec2 best = place.at;
+  double best_room = -1e9, best_cost = 1e9;
+  for (int i = 0; i < kDirections * kDistances; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i % kDirections) / kDirections;
+    const glm::dvec2 out{std::cos(angle), std::sin(angle)};
+    const double reach = 0.5 * (std::abs(out.x) * size.x + std::abs(out.y) * size.y);  // of the label, along `out`
+    const glm::dvec2 centre = place.at + (half_width + gap + reach + kStep * (i / kDirections)) * out;
+    double room = gap;
+    for (const haptics::Aisle& aisle : haptics::aisles(gate))
+      for (const double x : {-0.5, 0.0, 0.5})
+        for (const double y : {-0.5, 0.0, 0.5})
+          room = std::min(room, haptics::distance_to(aisle, centre + glm::dvec2(x, y) * size) - aisle.half_width);
+    const double cost = glm::distance(centre, place.at) + 0.3 * glm::length(centre);
+    if (room < best_room - 1e-9 || (room < best_room + 1e-9 && cost >= best_cost)) continue;
+    best = centre;
+    best_room = room;
+    best_cost = cost;
+  }
+  return best;
+}
+
+// Smallest distance [m] between two places.
+double place_spacing(const haptics::Gate& gate) {
+  double spacing = 1.0;
+  for (const haptics::Slot& a : haptics::slots(gate))
+    for (const haptics::Slot& b : haptics::slots(gate))
+      if (&a != &b) spacing = std::min(spacing, glm::distance(a.at, b.at));
+  return spacing;
+}
+
+// Shrinks the pattern until it fits into a round cap.
+void fit_into_cap(std::vector<Stroke>& strokes) {
+  constexpr double kReach = 0.48;
+  double reach = kReach;
+  for (const Stroke& stroke : strokes)
+    for (const glm::dvec2 p : stroke.line)
+      reach = std::max(reach, glm::distance(p, glm::dvec2(0.5)) + 0.5 * stroke.width);
+  for (Stroke& stroke : strokes) {
+    stroke.width *= kReach / reach;
+    for (glm::dvec2& p : stroke.line) p = glm::dvec2(0.5) + kReach / reach * (p - 0.5);
+  }
+}
+
+// A gate of aisles, to scale.
+std::vector<Stroke> aisle_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {
+  constexpr double kSquare = 0.72, kLine = 0.026, kMaxSign = 0.11;
+  glm::dvec2 low{1e9}, high{-1e9};
+  for (const haptics::Aisle& aisle : haptics::aisles(gate)) {
+    low = glm::min(low, glm::min(aisle.from, aisle.to));
+    high = glm::max(high, glm::max(aisle.from, aisle.to));
+  }
+  const double scale = kSquare / std::max(high.x - low.x, high.y - low.y);
+  const double longest = 0.6 * scale * place_spacing(gate);  // of a label
+  const auto at = [&](glm::dvec2 p) { return glm::dvec2(0.5) + scale * (p - 0.5 * (low + high)); };
+  std::vector<Stroke> strokes;
+  for (const haptics::Aisle& aisle : haptics::aisles(gate))
+    strokes.push_back({{at(aisle.from), at(aisle.to)}, kLine, colour});
+  for (const haptics::Slot& place : haptics::slots(gate)) {
+    const std::string label = haptics::gear_label(gate, place.gear);
+    const double height = std::min(kMaxSign, longest / text_length(label));
+    const glm::vec3 ink = place.gear == haptics::kReverseGear ? reverse_colour : colour;
+    const glm::dvec2 size = glm::dvec2(text_length(label), 1.0) * (height / scale);
+    const glm::dvec2 centre = at(label_place(gate, place, size, 0.004));
+    for (Stroke& stroke : text_strokes(label, centre, height, 0.16 * height, ink)) strokes.push_back(std::move(stroke));
+  }
+  fit_into_cap(strokes);
+  return strokes;
+}
+
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {
+  if (haptics::is_mechanism(gate)) return aisle_pattern(gate, colour, reverse_colour);
   constexpr double kSignHeight = 0.15, kLine = 0.030;
   constexpr glm::dvec2 kHalf{0.25, 0.19};  // half size of the pattern without the labels
   const double left = haptics::column_of(gate, 0).center,

@@ -20,17 +20,24 @@ struct Stroke {
   glm::vec3 colour{1.0f};  // linear
 };
 
-// Strokes of a text of digits, "R", "N", "+", "-", "/", " " and the small letters of "km/h", "mph" and "min x". `height` is
-// that of a digit; any other character is a box.
+// Strokes of a text of digits, capital letters, "+", "-", "/", " " and the small letters of "km/h", "mph" and "min x".
+// Other small letters are small capitals. `height` is that of a digit; any other character is a box.
 std::vector<Stroke> text_strokes(std::string_view text, glm::dvec2 centre, double height, double width,
                                  glm::vec3 colour);
+
+// Width of a text relative to the height of its digits.
+double text_length(std::string_view text) noexcept;
 
 // Strokes of the label "R", "N" or "1" to "9", centred at `centre`. `width` is the line width. The label of an unknown
 // gear is a box.
 std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour);
 
+// Where a place's label is, on the metal beside it: the centre of a label of this size [m], at the distance `gap` from
+// all aisles if there is room. For gates of aisles.
+glm::dvec2 label_place(const haptics::Gate& gate, const haptics::Slot& place, glm::dvec2 size, double gap);
+
 // The gate's shift pattern as printed on a knob, in the unit square with y up. The distances between columns are to
-// scale. All slots have the same length, with the gear labels at their ends.
+// scale. All slots have the same length, with the gear labels at their ends. A gate of aisles is to scale.
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour);
 
 // Fraction [1] of a square of side `pixel` around p that the stroke covers, from the distance to its centre line.

@@ -11,6 +11,7 @@
 
 #include "app/ui/input/bound_controllers.h"
 #include "app/ui/input/key_names.h"
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::ui {
@@ -52,6 +53,10 @@ glm::dvec2 without_leaning(const haptics::Gate& gate, glm::dvec2 lever, glm::dve
   const int index = haptics::slot_at(gate, lever);
   if (index == haptics::kNoSlot) return aim;
   const haptics::Slot& slot = haptics::slot_of(gate, index);
+  if (haptics::is_mechanism(gate)) {
+    const bool is_engaged = haptics::depth_in(gate, index, lever) >= slot.engage_depth;
+    return is_engaged && haptics::depth_in(gate, index, aim) >= slot.engage_depth ? slot.at : aim;
+  }
   const double side = static_cast<double>(static_cast<int>(slot.side));
   const bool is_engaged = side * lever.y >= slot.engage_depth, stays = side * aim.y >= slot.engage_depth;
   const bool is_same_column = haptics::nearest_column(gate, aim.x) == slot.column;
@@ -61,9 +66,7 @@ glm::dvec2 without_leaning(const haptics::Gate& gate, glm::dvec2 lever, glm::dve
 }  // namespace
 
 glm::dvec2 hand_reach(const haptics::Gate& gate, const haptics::DeviceSpec& device) noexcept {
-  glm::dvec2 reach{std::max(-gate.select_min, gate.select_max), 0.0};
-  for (const haptics::Slot& slot : haptics::slots(gate)) reach.y = std::max(reach.y, slot.end);
-  return glm::min(reach + kBeyondGate, device.workspace);
+  return glm::min(haptics::half_extent(gate) + kBeyondGate, device.workspace);
 }
 
 DriverInput::DriverInput(const InputConfig& config) : config_(config) {

@@ -77,7 +77,7 @@ void draw_car(const BarCursor& parts, const PanelInput& input) {
   ImFont* digits = engine::ui_font(engine::UiFont::digits);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = parts.low();
-  const char* gear = haptics::gear_name(input.now.gear);
+  const char* gear = haptics::gear_label(input.gate, input.now.gear);
   const float width = digits->CalcTextSizeA(engine::ui_font_size(digits), 1e9f, 0.0f, gear).x;
   list.AddText(digits, engine::ui_font_size(digits),
                {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - engine::ui_font_size(digits))},

@@ -10,6 +10,7 @@
 #include "app/ui/panel/bottom_window.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
+#include "haptics/gate/aisle.h"
 
 namespace gearshift::ui {
 namespace {
@@ -56,26 +57,29 @@ void draw_lever(ImVec2 low, float size, bool is_sideways, const std::optional<Ax
 void draw_gears(ImVec2 low, float size, const haptics::Gate& gate, int asked) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = engine::ui_em();
-  const double width = std::max(gate.select_max - gate.select_min, 1e-3);
-  double depth = 1e-3;
+  const bool has_aisles = haptics::is_mechanism(gate);
+  const double left = has_aisles ? -haptics::half_extent(gate).x : gate.select_min;
+  const double width = has_aisles ? -2.0 * left : std::max(gate.select_max - gate.select_min, 1e-3);
+  double depth = has_aisles ? haptics::half_extent(gate).y : 1e-3;
   for (const haptics::Slot& slot : haptics::slots(gate)) depth = std::max(depth, slot.rest);
   const auto at = [&](glm::dvec2 p) {
-    return ImVec2(low.x + size * static_cast<float>(0.1 + 0.8 * (p.x - gate.select_min) / width),
+    return ImVec2(low.x + size * static_cast<float>(0.1 + 0.8 * (p.x - left) / width),
                   low.y + size * static_cast<float>(0.5 - 0.32 * p.y / depth));
   };
   const ImU32 line = ink::kWall;
-  list.AddLine(at({gate.select_min, 0.0}), at({gate.select_max, 0.0}), line, 0.2f * em);
+  if (!has_aisles) list.AddLine(at({gate.select_min, 0.0}), at({gate.select_max, 0.0}), line, 0.2f * em);
+  for (const haptics::Aisle& aisle : haptics::aisles(gate)) list.AddLine(at(aisle.from), at(aisle.to), line, 0.2f * em);
   const auto mark = [&](int gear) {
     const ImVec2 place = at(haptics::rest_position(gate, gear));
     const bool is_asked = gear == asked;
     list.AddCircleFilled(place, 0.75f * em, is_asked ? ink::kAccent : ink::kPlate);
-    const char* name = haptics::gear_name(gear);
+    const char* name = haptics::gear_label(gate, gear);
     const ImVec2 text = ImGui::CalcTextSize(name);
     list.AddText({place.x - 0.5f * text.x, place.y - 0.5f * text.y}, is_asked ? ink::kFree : ink::kSoft, name);
   };
   for (const haptics::Slot& slot : haptics::slots(gate)) {
     const glm::dvec2 rest = haptics::rest_position(gate, slot.gear);
-    list.AddLine(at({rest.x, 0.0}), at(rest), line, 0.2f * em);
+    if (!has_aisles) list.AddLine(at({rest.x, 0.0}), at(rest), line, 0.2f * em);
   }
   for (const haptics::Slot& slot : haptics::slots(gate)) mark(slot.gear);
   mark(haptics::kNeutralGear);

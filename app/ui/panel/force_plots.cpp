@@ -8,6 +8,7 @@
 #include "app/ui/panel/format_value.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/plot_area.h"
+#include "haptics/gate/aisle.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::ui {
@@ -20,12 +21,7 @@ double along(PlotAxis axis, glm::dvec2 vector) {
 // Plot range [mm]: at least 5 mm beyond the outermost wall, because a hand can push through the wall; rounded up to
 // whole centimetres.
 PlotRange reach_of(const haptics::Gate& gate, PlotAxis axis) {
-  double reach = std::max(std::abs(gate.select_min), std::abs(gate.select_max));
-  if (axis == PlotAxis::shift) {
-    reach = gate.half_aisle;
-    for (const haptics::Slot& slot : haptics::slots(gate)) reach = std::max(reach, slot.end);
-  }
-  const double centimetres = 10.0 * std::ceil(1e2 * reach + 0.5);
+  const double centimetres = 10.0 * std::ceil(1e2 * along(axis, haptics::half_extent(gate)) + 0.5);
   return {-centimetres, centimetres};
 }
 

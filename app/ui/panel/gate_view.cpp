@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "app/ui/panel/palette.h"
+#include "haptics/gate/aisle.h"
 
 namespace gearshift::ui {
 namespace {
@@ -32,7 +35,13 @@ struct Extent {
   glm::dvec2 min, max;
 };
 
-Extent extent_of(const haptics::Gate& gate) {
+Extent extent_of(const haptics::Gate& gate, const haptics::GateDescription& description) {
+  if (haptics::is_mechanism(gate)) {
+    Extent box{description.aisles.front().min, description.aisles.front().max};
+    for (const haptics::AisleInfo& aisle : description.aisles)
+      box = {glm::min(box.min, aisle.min), glm::max(box.max, aisle.max)};
+    return {box.min - kRim, box.max + kRim};
+  }
   Extent box{{gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}};
   for (const haptics::Column& column : haptics::columns(gate)) {
     box.min.y = std::min(box.min.y, column.back);
@@ -55,6 +64,12 @@ struct Canvas {
 
 void draw_free_space(const Canvas& c, const haptics::GateDescription& gate) {
   for (const haptics::AisleInfo& aisle : gate.aisles) {
+    if (!aisle.outline.empty()) {
+      std::vector<ImVec2> outline;
+      for (const glm::dvec2 p : aisle.outline) outline.push_back(c.frame.at(p));
+      c.list.AddConvexPolyFilled(outline.data(), static_cast<int>(outline.size()), ink::kFree);
+      continue;
+    }
     c.list.AddRectFilled(c.frame.at({aisle.min.x, aisle.max.y}), c.frame.at({aisle.max.x, aisle.min.y}), ink::kFree);
   }
   for (const haptics::WallInfo& wall : gate.walls) {
@@ -96,6 +111,11 @@ void draw_lockouts(const Canvas& c, const haptics::Gate& gate) {
       continue;
     }
     const haptics::Slot& slot = haptics::slot_of(gate, lockout.slot);
+    if (haptics::is_mechanism(gate)) {  // round the place, where the lever is stopped
+      const double radius = (lockout.is_leaving ? haptics::kHeldRadius : haptics::kClosedRadius) * slot.end;
+      c.list.AddCircle(c.frame.at(slot.at), c.frame.length(radius), ink::kBad, 0, 0.1f * c.em);
+      continue;
+    }
     const haptics::Column& column = haptics::column_of(gate, slot.column);
     const double y = static_cast<int>(slot.side) * (gate.half_aisle + gate.chamfer);
     draw_dashed(c, {column.center - column.half_width, y}, {column.center + column.half_width, y}, ink::kBad);
@@ -108,14 +128,28 @@ void centred_text(const Canvas& c, ImFont* font, ImVec2 at, ImU32 colour, const 
                  colour, text);
 }
 
-void draw_gears(const Canvas& c, const haptics::Gate& gate, int engaged) {
+// The labels of places are on them, and a ring shows where they count.
+void draw_places(const Canvas& c, const haptics::Gate& gate, const haptics::HapticSnapshot& now) {
+  for (int i = 0; i < gate.slot_count; ++i) {
+    const haptics::Slot& place = haptics::slot_of(gate, i);
+    const ImVec2 at = c.frame.at(place.at);
+    const bool on = now.slot == i && place.gear == now.gear;
+    c.list.AddCircle(at, c.frame.length(place.end - place.engage_depth), engine::with_alpha(ink::kAccent, 0.45f));
+    if (on) c.list.AddCircleFilled(at, 0.72f * c.em, ink::kAccentDeep);
+    centred_text(c, engine::ui_font(engine::UiFont::title), at, on ? ink::kText : ink::kSoft,
+                 haptics::gear_label(gate, place.gear));
+  }
+}
+
+void draw_gears(const Canvas& c, const haptics::Gate& gate, const haptics::HapticSnapshot& now) {
+  if (haptics::is_mechanism(gate)) return draw_places(c, gate, now);
   for (const haptics::Slot& slot : haptics::slots(gate)) {
     const double x = haptics::column_of(gate, slot.column).center, side = static_cast<int>(slot.side);
     const ImVec2 at = c.frame.at({x, side * (slot.end + 0.5 * kRim)});
-    const bool on = slot.gear == engaged;
+    const bool on = slot.gear == now.gear;
     if (on) c.list.AddCircleFilled(at, 0.72f * c.em, ink::kAccentDeep);
     centred_text(c, engine::ui_font(engine::UiFont::title), at, on ? ink::kText : ink::kSoft,
-                 haptics::gear_name(slot.gear));
+                 haptics::gear_label(gate, slot.gear));
     const double half = haptics::column_of(gate, slot.column).half_width;
     c.list.AddLine(c.frame.at({x - half, side * slot.engage_depth}), c.frame.at({x + half, side * slot.engage_depth}),
                    engine::with_alpha(ink::kAccent, 0.45f));
@@ -206,7 +240,7 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateD
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
   const float em = engine::ui_em(), foot = engine::ui_font_size(engine::UiFont::small) + 0.3f * em;
-  const Extent box = extent_of(gate);
+  const Extent box = extent_of(gate, description);
   const Canvas c{*ImGui::GetWindowDrawList(), fit(box, low, {size.x, size.y - foot}), em};
   const double px_per_n =
       kArrowFraction * static_cast<double>(std::min(size.x, size.y - foot)) / std::max(max_force, 1.0);
@@ -216,7 +250,7 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateD
   draw_buffers(c, gate);
   draw_lockouts(c, gate);
   draw_walls(c, description);
-  draw_gears(c, gate, now.gear);
+  draw_gears(c, gate, now);
   draw_trail(c, trail);
   draw_driven_path(c, paths.driven);
   draw_ideal_path(c, paths.ideal);

@@ -78,6 +78,9 @@ TEST_CASE("a gate of aisles that cannot be is refused with line and reason") {
       {"[feel]\nlock_force_n = 5\n" + kTee + place("A", 30, 0), "lock_force_n is not a known key"},
       {"[gate]\nslot_width_mm = 8\n" + kTee + place("A", 30, 0),
        "must be left out, because [[aisle]] describes the gate"},
+      {aisle(0, -30, 0, 30, "width_mm = 14\n") + aisle(-6, 0, 6, 0, "spring_n = 3\n") +
+           place("0", 0, 30, "neutral = true\n") + place("A", 0, -30),
+       "spring_n would have no effect"},
       {"[[aisle]]\nfrom_x_mm = 1\n", "from_y_mm is missing"},
       // Round a loop of four aisles, a spring in one of them would drive the lever for ever.
       {aisle(-20, -20, 20, -20, "spring_n = 3\n") + aisle(20, -20, 20, 20) + aisle(20, 20, -20, 20) +

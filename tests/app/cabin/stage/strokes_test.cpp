@@ -53,6 +53,34 @@ TEST_CASE("gear labels differ from each other and stay inside their box") {
   }
 }
 
+TEST_CASE("every letter has a shape of its own inside its box, and a text is as long as text_length says") {
+  const std::string all = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789abcdefgjloqrstuvwyz";
+  std::set<std::string> seen;
+  for (const char letter : all) {
+    CAPTURE(letter);
+    std::string shape;
+    for (const cabin::Stroke& stroke : cabin::text_strokes({&letter, 1}, {0.5, 0.5}, 0.2, 0.02, glm::vec3(1.0f))) {
+      for (const glm::dvec2 p : stroke.line) {
+        CHECK(std::abs(p.x - 0.5) <= 0.0625);
+        CHECK(std::abs(p.y - 0.5) <= 0.109);
+        shape += std::to_string(p.x) + "," + std::to_string(p.y) + ";";
+      }
+    }
+    CHECK(seen.insert(shape).second);
+  }
+  CHECK(cabin::text_length("10") == doctest::Approx(1.44));
+}
+
+TEST_CASE("a place's label lies beside all aisles where there is room") {
+  const haptics::Gate gate = shipped_gate("selector_p_r_n_d");
+  for (const haptics::Slot& place : haptics::slots(gate)) {
+    const glm::dvec2 size{0.004, 0.006}, at = cabin::label_place(gate, place, size, 0.002);
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5}) CHECK_FALSE(haptics::in_free_space(gate, at + glm::dvec2(x, y) * size));
+    CHECK(glm::distance(at, place.at) < 0.014);
+  }
+}
+
 TEST_CASE("a six rotated by 180 degrees is a nine") {
   const engine::Image six =
       cabin::draw_strokes(cabin::gear_label(6, {0.5, 0.5}, 0.8, 0.1, glm::vec3(1.0f)), 64, glm::vec3(0.0f));
@@ -76,7 +104,9 @@ TEST_CASE("a drawn stroke covers as many pixels as its area") {
 }
 
 TEST_CASE("the knob of every shipped gate shows each gear once, inside a round cap") {
-  for (const std::string& name : shipped_names()) {
+  std::vector<std::string> names = shipped_names();
+  names.insert(names.end(), std::begin(kMechanisms), std::end(kMechanisms));
+  for (const std::string& name : names) {
     CAPTURE(name);
     const haptics::Gate gate = shipped_gate(name);
     for (const cabin::Stroke& stroke : cabin::shift_pattern(gate, glm::vec3(1.0f), glm::vec3(1.0f, 0.0f, 0.0f))) {
