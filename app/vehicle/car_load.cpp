@@ -34,14 +34,25 @@ double finite_or_zero(double value) noexcept {
 }
 
 constexpr double kLightThrottle = 0.2;  // [1] fraction of full throttle; enough to move off
-constexpr double kFreeSpeed = 180.0;    // [rad/s] about 1700 rpm; an uncoupled engine gets no light throttle above this
-constexpr double kFreeBand = 50.0;      // [rad/s] range below kFreeSpeed in which light throttle falls to 0
+constexpr double kLightFree = 180.0;    // [rad/s] about 1700 rpm; an uncoupled engine gets no light throttle above this
+// [rad/s] The same for a held throttle, and how much more it is for full throttle: half throttle keeps a free engine at
+// 1500 rpm, as the prompt of a hill start asks.
+constexpr double kHeldFree = 130.0, kHeldFreeMore = 130.0;
+constexpr double kFreeBand = 50.0;  // [rad/s] range below this speed in which the throttle falls to 0
 
-// Returns the light throttle [1]. While the engine is not coupled to the wheels, the throttle falls to 0 as the engine
-// speed approaches kFreeSpeed. A constant kLightThrottle would over-rev the engine.
-double light_throttle(double engine_speed, bool coupled) noexcept {
-  if (coupled) return kLightThrottle;
-  return kLightThrottle * std::clamp((kFreeSpeed - engine_speed) / kFreeBand, 0.0, 1.0);
+// Returns the throttle [1] of a foot that wants `pedal`. While the engine is not coupled to the wheels, the foot eases
+// off as the engine comes near `free` [rad/s]: a constant throttle would over-rev it.
+double eased_throttle(double pedal, double free, double engine_speed) noexcept {
+  return pedal * std::clamp((free - engine_speed) / kFreeBand, 0.0, 1.0);
+}
+
+double throttle_of(const haptics::PedalKeys& keys, double engine_speed, bool coupled) noexcept {
+  if (keys.throttle) return 1.0;
+  const double held = std::clamp(finite_or_zero(keys.held_throttle), 0.0, 1.0);
+  const double light = keys.throttle_light ? kLightThrottle : 0.0;
+  if (coupled) return std::max(held, light);
+  return std::max(eased_throttle(held, kHeldFree + kHeldFreeMore * held, engine_speed),
+                  eased_throttle(light, kLightFree, engine_speed));
 }
 
 // Returns the pedal position after `seconds` of motion towards `to`. `time`: duration of the full travel [s].
@@ -56,11 +67,12 @@ PedalTiming slowed(PedalTiming timing, double slow_clutch) noexcept {
 }
 
 // Returns the position of the released clutch pedal after `seconds`: the pedal rises fast, but slowly from the bite
-// point to the point of full capacity.
-double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch) noexcept {
+// point to the point of full capacity, unless the clutch has `gripped`.
+double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch,
+                      bool gripped) noexcept {
   const double edges[] = {clutch.bite, clutch.closed, 0.0};
   const double quick = 1.0 / timing.pedal_time, slow = (clutch.bite - clutch.closed) / timing.slip_time;
-  const double speeds[] = {quick, slow, quick};
+  const double speeds[] = {quick, gripped ? quick : slow, quick};
   for (int part = 0; part < 3; ++part) {
     const double step = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
     pedal -= step;
@@ -112,13 +124,12 @@ const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, doub
                                             bool coupled) noexcept {
   seconds = std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
   const double time = timing_.pedal_time;
-  const double light = keys.throttle_light ? light_throttle(engine_speed, coupled) : 0.0;
-  pedals_.throttle = ramped(pedals_.throttle, keys.throttle ? 1.0 : light, seconds, time);
+  pedals_.throttle = ramped(pedals_.throttle, throttle_of(keys, engine_speed, coupled), seconds, time);
   pedals_.brake = ramped(pedals_.brake, keys.brake ? 1.0 : 0.0, seconds, time);
   if (keys.clutch)
     pedals_.clutch = ramped(pedals_.clutch, 1.0, seconds, time);
   else if (!keys.clutch_hold)
-    pedals_.clutch = release_clutch(pedals_.clutch, seconds, slowed(timing_, keys.slow_clutch), clutch_);
+    pedals_.clutch = release_clutch(pedals_.clutch, seconds, slowed(timing_, keys.slow_clutch), clutch_, coupled);
   return pedals_;
 }
 
@@ -168,7 +179,7 @@ void CarLoad::place_pedals(const haptics::Pedals& keyboard) noexcept {
 
 haptics::Pedals CarLoad::move_pedals(const haptics::Pedals& axes, const haptics::PedalKeys& keys,
                                      double period) noexcept {
-  const bool coupled = state_.gear != haptics::kNeutralGear && state_.clutch_capacity > 0.0;
+  const bool coupled = state_.gear != haptics::kNeutralGear && state_.clutch_locked;
   const haptics::Pedals& pressed = keyboard_.move(keys, period, state_.engine_speed, coupled);
   return {std::max(axes.throttle, pressed.throttle), std::max(axes.brake, pressed.brake),
           std::max(axes.clutch, pressed.clutch), axes.hand_brake};

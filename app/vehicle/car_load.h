@@ -43,11 +43,12 @@ CarStart start_from(const VehicleState& state) noexcept;
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 
 // Actuator model of the pedals that keys press. It moves them in every cycle of the car's clock, so that no pedal jumps
-// at a low frame rate. `throttle_light` presses the throttle by a fifth of the travel, or less while the engine turns
-// fast and is not coupled to the wheels. The released clutch pedal rises fast, but slowly while the clutch slips, and
-// stops while `clutch_hold` is held. With `slow_clutch` at 1, it slips for kSlowClutch times as long: help for a learner
-// who lets the clutch up too fast. The hand brake does not move.
-inline constexpr double kSlowClutch = 2.5;  // [1] engineering value: 3 s instead of 1.2 s
+// at a low frame rate. `throttle` presses the throttle to the floor, `throttle_light` by a fifth of the travel, and
+// otherwise it stays at `held_throttle`. These two ease off while the clutch is open or slips and the engine turns faster
+// than this throttle needs to move off. The released clutch pedal rises fast, but slowly in the bite zone until the
+// clutch has gripped in a gear, and stops while `clutch_hold` is held. With `slow_clutch` at 1, it slips for kSlowClutch
+// times as long: help for a learner who lets the clutch up too fast. The hand brake does not move.
+inline constexpr double kSlowClutch = 1.5;  // [1] engineering value: 6 s instead of 4 s
 class KeyboardPedals {
  public:
   KeyboardPedals(const PedalTiming& timing, const ClutchSpec& clutch) noexcept : timing_(timing), clutch_(clutch) {}
@@ -56,7 +57,7 @@ class KeyboardPedals {
   const haptics::Pedals& pedals() const noexcept { return pedals_; }
 
   // Moves the pedals by `seconds` of the car's time (negative counts as 0) and returns their positions.
-  // `engine_speed`: [rad/s]. `coupled`: the engine drives the wheels. Real-time safe.
+  // `engine_speed`: [rad/s]. `coupled`: the engine turns with the wheels, without slip. Real-time safe.
   const haptics::Pedals& move(const haptics::PedalKeys& keys, double seconds, double engine_speed,
                               bool coupled) noexcept;
 

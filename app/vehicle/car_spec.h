@@ -95,7 +95,7 @@ struct BodySpec {
 // How keys move the car's pedals, see KeyboardPedals in car_load.h.
 struct PedalTiming {
   double pedal_time = 0.25;  // [s] time for the full pedal travel
-  double slip_time = 1.2;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
+  double slip_time = 4.0;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
 };
 
 struct CarSpec {

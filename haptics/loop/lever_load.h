@@ -36,7 +36,8 @@ struct Pedals {
 // Keys that press a pedal and are held now. A load that models the pedals moves them, see LeverLoad::move_pedals().
 struct PedalKeys {
   bool throttle = false, throttle_light = false, brake = false, clutch = false, clutch_hold = false;
-  double slow_clutch = 0.0;  // [1] 0 to 1: how much longer the released clutch takes to come up where it bites
+  double slow_clutch = 0.0;    // [1] 0 to 1: how much longer the released clutch takes to come up where it bites
+  double held_throttle = 0.0;  // [1] 0 to 1: where the foot holds the throttle while no key presses it further
   bool operator==(const PedalKeys&) const = default;
 };
 

@@ -202,6 +202,33 @@ std::string button_label(const ControllerName& of, int button) {
   return fmt::format("{} button {}", of.stick, button);
 }
 
+// The first code that is bound to the action, as `name` prints it; empty if there is none.
+std::string first_label(const std::map<Action, std::vector<int>>& bound, Action action, const auto& name) {
+  const auto codes = bound.find(action);
+  return codes == bound.end() || codes->second.empty() ? std::string() : name(codes->second.front());
+}
+
+// The axis that moves the pedal of this action; null if it is not bound.
+const AxisBinding* pedal_axis_of(const Bindings& bindings, Action action) {
+  for (const AxisInfo& info : kAxes)
+    if (!info.is_lever && info.actions.front() == action && bindings.*info.axis) return &*(bindings.*info.axis);
+  return nullptr;
+}
+
+// See driving_keys(); empty if the action is left out.
+std::string label_at_hand(const Bindings& bindings, Action action, DeviceAtHand at_hand, std::string_view pad_id) {
+  const AxisBinding* const axis = pedal_axis_of(bindings, action);
+  if (at_hand == DeviceAtHand::controller && axis != nullptr && !axis->of.stick.empty()) return {};
+  if (at_hand == DeviceAtHand::pad && axis != nullptr && axis->of.stick.empty())
+    return pad_axis_label(axis->axis, pad_id);
+  if (at_hand == DeviceAtHand::pad) {
+    std::string button =
+        first_label(bindings.pad_buttons, action, [&](int code) { return pad_button_label(code, pad_id); });
+    if (!button.empty()) return button;
+  }
+  return first_label(bindings.keys, action, key_label);
+}
+
 std::string axis_label(const AxisBinding& axis, std::string_view pad_id) {
   return axis.of.stick.empty() ? "Pad " + pad_axis_label(axis.axis, pad_id)
                                : fmt::format("{} axis {}", axis.of.stick, axis.axis);
@@ -231,16 +258,21 @@ Bindings parse_bindings(std::string_view text, const std::string& file_name) {
   return bindings;
 }
 
-std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
-  constexpr Action kInOrder[] = {Action::clutch,      Action::brake,      Action::throttle, Action::throttle_light,
-                                 Action::clutch_hold, Action::hand_brake, Action::ignition, Action::starter,
-                                 Action::push_down,   Action::lift};
-  constexpr std::string_view kShort[] = {"clutch",    "brake",    "throttle", "a little throttle", "hold the clutch",
-                                         "handbrake", "ignition", "starter",  "knob down",         "lift ring"};
+std::vector<DrivingKey> driving_keys(const Bindings& bindings, DeviceAtHand at_hand,
+                                     const std::vector<engine::Controller>& all) {
+  constexpr Action kInOrder[] = {
+      Action::clutch,         Action::brake,       Action::throttle_more, Action::throttle_less, Action::throttle,
+      Action::throttle_light, Action::clutch_hold, Action::hand_brake,    Action::ignition,      Action::starter,
+      Action::shift_up,       Action::shift_down,  Action::push_down,     Action::lift};
+  constexpr std::string_view kShort[] = {"clutch",   "brake",           "throttle",  "less",     "full throttle",
+                                         "a little", "hold the clutch", "handbrake", "ignition", "starter",
+                                         "gear up",  "gear down",       "knob down", "lift ring"};
+  static_assert(std::size(kShort) == std::size(kInOrder));
   std::vector<DrivingKey> keys;
-  for (std::size_t i = 0; i < std::size(kInOrder); ++i)
-    if (const auto bound = bindings.keys.find(kInOrder[i]); bound != bindings.keys.end() && !bound->second.empty())
-      keys.push_back({kShort[i], key_label(bound->second.front())});
+  for (std::size_t i = 0; i < std::size(kInOrder); ++i) {
+    std::string label = label_at_hand(bindings, kInOrder[i], at_hand, id_of_pads(bindings, all));
+    if (!label.empty()) keys.push_back({kShort[i], std::move(label)});
+  }
   return keys;
 }
 

@@ -33,6 +33,8 @@ enum class Action {
   starter,
   hand_brake_hold,
   // actions performed once per key press
+  throttle_more,
+  throttle_less,
   hand_brake,
   shift_up,
   shift_down,
@@ -48,6 +50,8 @@ enum class Action {
   undo,
   redo,
   grab_mouse,
+  free_mouse,
+  lessons,
   quit
 };
 struct ActionInfo {
@@ -112,7 +116,7 @@ struct AxisInfo {
   bool is_lever;          // otherwise a pedal, or the handbrake
   std::string_view help;  // text in the help window
   std::string_view prompt;
-  std::array<std::optional<Action>, 2> actions{};  // by which keys and buttons move the same control
+  std::array<std::optional<Action>, 3> actions{};  // by which keys and buttons move the same control
 };
 inline constexpr AxisInfo kAxes[] = {{"clutch",
                                       &Bindings::clutch,
@@ -131,7 +135,7 @@ inline constexpr AxisInfo kAxes[] = {{"clutch",
                                       false,
                                       "throttle",
                                       "Press the THROTTLE pedal all the way down, then release it.",
-                                      {Action::throttle, Action::throttle_light}},
+                                      {Action::throttle_more, Action::throttle, Action::throttle_light}},
                                      {"hand_brake",
                                       &Bindings::hand_brake,
                                       false,
@@ -176,13 +180,18 @@ std::vector<std::string> bound_inputs(const Bindings& bindings, const AxisInfo& 
 // separates the input from the action.
 std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all);
 
-// A driving action and the first key bound to it, for example "clutch" and "A".
+// What the driver last used.
+enum class DeviceAtHand { keyboard, pad, controller };
+
+// A driving action and what performs it on the device at hand, as the device prints it: "clutch" and "A", or "LB".
 struct DrivingKey {
   std::string_view action;
   std::string key;
 };
-// Returns the keys in the order in which the legend shows them; actions without a key are left out.
-std::vector<DrivingKey> driving_keys(const Bindings& bindings);
+// Returns them in the order in which the legend shows them. Actions that the device at hand does not have keep their keys;
+// those without a key are left out, and so are pedals of a wheel, which have their names.
+std::vector<DrivingKey> driving_keys(const Bindings& bindings, DeviceAtHand at_hand = DeviceAtHand::keyboard,
+                                     const std::vector<engine::Controller>& all = {});
 
 }  // namespace gearshift::ui
 

@@ -17,12 +17,16 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinAxisMove = 0.02;  // [1] axis motion smaller than this is noise
-constexpr double kPushTravel = 0.05;   // [m] mouse motion beyond the hand's reach at which the push is `max_push`
-constexpr double kStepPull = 0.6;      // [1] deflection of a stick at which a step counts, see LeverMode::steps
-constexpr double kStepReturn = 0.3;    // [1] deflection below which the next step may begin
-constexpr double kTakesOver = 0.5;     // [1] a handbrake pulled this far replaces the switched one
-constexpr double kBeyondGate = 0.02;   // [m] reach of the hand beyond the gate, see hand_reach()
+constexpr double kMinAxisMove = 0.02;    // [1] axis motion smaller than this is noise
+constexpr double kPushTravel = 0.05;     // [m] mouse motion beyond the hand's reach at which the push is `max_push`
+constexpr double kStepPull = 0.6;        // [1] deflection of a stick at which a step counts, see LeverMode::steps
+constexpr double kStepReturn = 0.3;      // [1] deflection below which the next step may begin
+constexpr double kTakesOver = 0.5;       // [1] a handbrake pulled this far replaces the switched one
+constexpr double kThrottleSteps = 10.0;  // [1] number of steps of the whole travel
+constexpr double kRepeatDelay = 0.4;     // [s] how long a key of the throttle is held before it repeats
+constexpr double kRepeatTime = 0.1;      // [s] between its steps
+constexpr double kAtHand = 0.1;          // [1] a pedal pressed further than this is in use
+constexpr double kBeyondGate = 0.02;     // [m] reach of the hand beyond the gate, see hand_reach()
 
 bool is_once(Action action) {
   const auto& actions = all_actions();
@@ -82,11 +86,13 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
   if (was_focused_ && !input.focused) {
     release_all();
     mouse_moves_lever_ = false;
+    held_throttle_ = 0.0;
   }
   was_focused_ = input.focused;
   update_keys(input, ui_has_keys);
   update_buttons(input);
   update_mouse(input, ui_has_mouse);
+  repeat_throttle(seconds);
   move_hand(input, seconds);
   read_pedals(input);
   retry_gear();
@@ -199,13 +205,17 @@ void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
   if (found == bound.end()) return;
   const Action action = found->first;
   const bool stops = action == Action::stop && (!ui_has_keys || !types_text(source.code));
-  const bool frees = action == Action::grab_mouse && mouse_moves_lever_;
+  const bool frees = (action == Action::grab_mouse || action == Action::free_mouse) && mouse_moves_lever_;
   if ((ui_has_keys || chord) && !stops && !frees) return;
   const bool was_down = down_.contains(source) && !released_.contains(source);
   down_.insert(source);
   released_.erase(source);
-  if (!was_down) newly_down_.insert(source);
-  if (!was_down && is_once(action)) trigger(action);
+  if (was_down) return;
+  newly_down_.insert(source);
+  at_hand_ = source.device == kKeyboard   ? DeviceAtHand::keyboard
+             : source.device == kGamepads ? DeviceAtHand::pad
+                                          : DeviceAtHand::controller;
+  if (is_once(action)) trigger(action);
 }
 
 bool DriverInput::stops(const engine::KeyEvent& key, bool ui_has_keys) const {
@@ -219,12 +229,29 @@ bool DriverInput::stops(const engine::KeyEvent& key, bool ui_has_keys) const {
 void DriverInput::trigger(Action action) {
   pressed_.push_back(action);
   if (action == Action::grab_mouse) mouse_moves_lever_ = !mouse_moves_lever_;
+  if (action == Action::free_mouse) mouse_moves_lever_ = false;
+  if (action == Action::throttle_more || action == Action::throttle_less) {
+    step_throttle(action == Action::throttle_more ? 1 : -1);
+    throttle_key_held_ = -kRepeatDelay;
+  }
   if (action == Action::hand_brake) hand_brake_switch_ = controls_.pedals.hand_brake > 0.5 ? 0.0 : 1.0;
   if (action == Action::shift_up || action == Action::shift_down) {
     gear_hand_.shift_by(action == Action::shift_up ? 1 : -1, engaged_, lever_);
     is_gear_of_shifter_ = false;
   }
   if (action == Action::ignition) controls_.ignition = !controls_.ignition;
+}
+
+void DriverInput::step_throttle(int steps) {
+  held_throttle_ = std::clamp(std::round(held_throttle_ * kThrottleSteps + steps) / kThrottleSteps, 0.0, 1.0);
+}
+
+// Presses count at once, so the frame rate does not matter. A held key repeats; the right foot leaves for the brake.
+void DriverInput::repeat_throttle(double seconds) {
+  const int direction = int(is_held_at_end(Action::throttle_more)) - int(is_held_at_end(Action::throttle_less));
+  throttle_key_held_ = direction == 0 ? -kRepeatDelay : throttle_key_held_ + seconds;
+  for (; throttle_key_held_ >= kRepeatTime; throttle_key_held_ -= kRepeatTime) step_throttle(direction);
+  if (is_held_at_end(Action::brake)) held_throttle_ = 0.0;
 }
 
 template <class Holds>
@@ -254,8 +281,13 @@ bool DriverInput::is_held_at_end(Action action) const {
 }
 
 haptics::PedalKeys DriverInput::pedal_keys() const {
-  return {is_held_at_end(Action::throttle), is_held_at_end(Action::throttle_light), is_held_at_end(Action::brake),
-          is_held_at_end(Action::clutch), is_held_at_end(Action::clutch_hold)};
+  return {is_held_at_end(Action::throttle),
+          is_held_at_end(Action::throttle_light),
+          is_held_at_end(Action::brake),
+          is_held_at_end(Action::clutch),
+          is_held_at_end(Action::clutch_hold),
+          0.0,
+          held_throttle_};
 }
 
 void DriverInput::update_mouse(const engine::WindowInput& input, bool ui_has_mouse) {
@@ -374,6 +406,20 @@ void DriverInput::rebind(const Bindings& bindings) {
 void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.ignition = ignition;
   controls_.pedals.hand_brake = hand_brake_switch_ = hand_brake;
+  held_throttle_ = 0.0;
+  screen_pedals_ = {};
+}
+
+// The right foot has one pedal at a time.
+void DriverInput::move_pedal(double haptics::Pedals::*pedal, double pressed) {
+  screen_pedals_.*pedal = std::clamp(std::isfinite(pressed) ? pressed : 0.0, 0.0, 1.0);
+  if (pedal == &haptics::Pedals::brake) screen_pedals_.throttle = held_throttle_ = 0.0;
+  if (pedal == &haptics::Pedals::throttle) screen_pedals_.brake = 0.0;
+}
+
+void DriverInput::shift_to(int gear) {
+  gear_hand_.shift_to(gear, engaged_, lever_);
+  is_gear_of_shifter_ = false;
 }
 
 // Returns the axis's raw value; empty until the axis has moved.
@@ -410,18 +456,22 @@ double DriverInput::stick(const engine::WindowInput& input, std::optional<AxisBi
 double DriverInput::pedal_axis(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis) {
   const std::optional<AxisBinding>& bound = config_.bindings.*axis;
   const std::optional<double> raw = raw_axis(input, bound, watch_of(axis));
-  return raw ? pedal_value(*bound, *raw) : 0.0;
+  const double pressed = raw ? pedal_value(*bound, *raw) : 0.0;
+  if (pressed > kAtHand) at_hand_ = bound->of.stick.empty() ? DeviceAtHand::pad : DeviceAtHand::controller;
+  return pressed;
 }
 
 void DriverInput::read_pedals(const engine::WindowInput& input) {
   haptics::Pedals& pedals = controls_.pedals;
-  pedals.throttle = pedal_axis(input, &Bindings::throttle);
-  pedals.brake = pedal_axis(input, &Bindings::brake);
-  pedals.clutch = pedal_axis(input, &Bindings::clutch);
+  if (is_held(Action::clutch)) screen_pedals_.clutch = 0.0;
+  if (is_held(Action::brake) || is_held(Action::throttle_more)) screen_pedals_.brake = screen_pedals_.throttle = 0.0;
+  pedals.throttle = std::max(pedal_axis(input, &Bindings::throttle), screen_pedals_.throttle);
+  pedals.brake = std::max(pedal_axis(input, &Bindings::brake), screen_pedals_.brake);
+  pedals.clutch = std::max(pedal_axis(input, &Bindings::clutch), screen_pedals_.clutch);
   const double pulled = std::max(pedal_axis(input, &Bindings::hand_brake), double(is_held(Action::hand_brake_hold)));
   if (pulled > kTakesOver) hand_brake_switch_ = 0.0;
   pedals.hand_brake = std::max(hand_brake_switch_, pulled);
-  controls_.starter = is_held(Action::starter);
+  controls_.starter = holds_starter();
 }
 
 }  // namespace gearshift::ui

@@ -15,13 +15,17 @@
 //           is released.
 //   handbrake  Applied as far as its axis, or while `hand_brake_hold` is held, or from one press of `hand_brake` to the
 //           next. A lesson may start with the handbrake on; the first use of axis or `hand_brake_hold` takes it over.
-//   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
+//   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. The throttle stays
+//           where `throttle_more` and `throttle_less` have put it, a tenth of its travel per press and, if they are held,
+//           per 0.1 s after the first 0.4 s; the brake key lets it off. A pedal axis
 //           is used only after its first motion, because a pad does not report the true position of an axis earlier. The
 //           first change of another stick's axis may be its first report, so its motion begins with the second.
 //   mouse   A click on the cabin, or the action `grab_mouse`, captures the mouse for the lever. `grab_mouse` again, or
 //           the loss of the window's focus, releases the mouse.
+//   screen  The panel's pedals stay where the mouse put them, until a key moves the same pedal; its gate sends the hand to
+//           a gear, and its switches act as the keys do.
 //   panel   Keys and clicks that the panel uses are ignored, with two exceptions: `stop` with a key that types no text,
-//           and `grab_mouse` while the mouse is captured.
+//           and `grab_mouse` or `free_mouse` while the mouse is captured.
 //   chords  A key pressed with Ctrl or Alt held is ignored, except for `stop`, and `grab_mouse` while the mouse is
 //           captured. If Ctrl or Alt is itself bound to an action, it acts like any other key.
 #pragma once
@@ -73,6 +77,15 @@ class DriverInput {
   haptics::PedalKeys pedal_keys() const;
   const std::vector<Action>& pressed() const noexcept { return pressed_; }  // one-shot actions of this frame, in order
   bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
+  double held_throttle() const noexcept { return held_throttle_; }          // [1] where the keys hold the throttle
+  DeviceAtHand at_hand() const noexcept { return at_hand_; }
+  bool holds_starter() const { return is_held(Action::starter) || screen_starter_; }
+
+  // From the panel, until the next call. `pressed` [1]: 0 to 1.
+  void move_pedal(double haptics::Pedals::*pedal, double pressed);
+  void hold_starter(bool on) noexcept { screen_starter_ = on; }
+  void shift_to(int gear);
+  void perform(Action action) { trigger(action); }  // hand_brake or ignition
 
   void recentre(glm::dvec2 lever);  // puts the hand at the lever, without a push
   void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
@@ -129,6 +142,8 @@ class DriverInput {
   void aim_by_speed(glm::dvec2 speed, double seconds);
   glm::dvec2 key_speed() const;
   void set_hand();
+  void step_throttle(int steps);
+  void repeat_throttle(double seconds);
   std::optional<double> raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
                                  AxisWatch& watch) const;
   double stick(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis);
@@ -159,7 +174,12 @@ class DriverInput {
   bool is_gear_of_shifter_ = false;           // the gear that gear_hand_ moves to
   bool was_clutch_down_ = false;
   std::uint64_t rebinds_ = 0;
-  double hand_brake_switch_ = 0.0;        // [1] as pressed by the action hand_brake or set by the lesson
+  double hand_brake_switch_ = 0.0;  // [1] as pressed by the action hand_brake or set by the lesson
+  haptics::Pedals screen_pedals_;   // as put in the panel
+  bool screen_starter_ = false;     // held in the panel
+  DeviceAtHand at_hand_ = DeviceAtHand::keyboard;
+  double held_throttle_ = 0.0;            // [1] as put by throttle_more and throttle_less
+  double throttle_key_held_ = 0.0;        // [s] time since the last step of the key that is held; negative before
   std::array<bool, 2> stick_controls_{};  // select, shift
 };
 

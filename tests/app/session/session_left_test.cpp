@@ -37,6 +37,7 @@ struct LeftRig {
     choice.help = false;
     choice.clock = RuntimeClock::virtual_time;
     choice.sound = SoundOutput::none;
+    choice.pedal_timing = {0.25, 1.2};
     return choice;
   }
   void go(double seconds) {

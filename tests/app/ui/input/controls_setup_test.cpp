@@ -313,7 +313,7 @@ TEST_CASE(
   };
   CHECK(skip() == "you still use the clutch with Old pedals axis 2, A");
   CHECK(skip() == "you still use the brake with Pad LT, S");
-  CHECK(skip() == "you still use the throttle with Pad RT, D, F");
+  CHECK(skip() == "you still use the throttle with Pad RT, D, X, V");
   CHECK(skip() == "you still use the handbrake with B, H");
   CHECK(person.setup.if_skipped().empty());  // the way of shifting has to be chosen
   person.say(Answer::lever);

@@ -268,7 +268,7 @@ TEST_CASE("a released keyboard clutch moves slowly around the bite point, for th
     CHECK(d.pedals.clutch == 1.0);
     d.key(GLFW_KEY_A, false);
     double slips = 0.0;
-    for (int i = 0; i < 300 * parts; ++i) {
+    for (int i = 0; i < 450 * parts; ++i) {
       d.frame(0.01 / parts);
       const double pedal = d.pedals.clutch;
       if (pedal < 0.8 - 1e-9 && pedal > 0.2 + 1e-9) slips += 0.01 / parts;
@@ -283,7 +283,7 @@ TEST_CASE("the clutch stays at the bite point while its hold key is pressed, and
   d.key(GLFW_KEY_A, true);
   for (int i = 0; i < 30; ++i) d.frame();
   d.key(GLFW_KEY_A, false);
-  for (int i = 0; i < 20; ++i) d.frame();
+  for (int i = 0; i < 60; ++i) d.frame();
   d.key(GLFW_KEY_Q, true);
   d.frame();
   const double bite = d.pedals.clutch;
@@ -291,7 +291,7 @@ TEST_CASE("the clutch stays at the bite point while its hold key is pressed, and
   for (int i = 0; i < 300; ++i) d.frame();
   CHECK(d.pedals.clutch == bite);
   d.key(GLFW_KEY_Q, false);
-  for (int i = 0; i < 300; ++i) d.frame();
+  for (int i = 0; i < 450; ++i) d.frame();
   CHECK(d.pedals.clutch == 0.0);
 }
 
@@ -703,4 +703,75 @@ TEST_CASE("after new bindings, keys that are held stay held, and their release c
   d.frame();
   CHECK_FALSE(d.driver.hand().pressed_down);
   CHECK_FALSE(d.driver.pedal_keys().throttle);
+}
+
+TEST_CASE("the throttle goes a tenth per press and stays, also for presses within one frame; the brake lets it off") {
+  for (const double frame : {1.0 / 5.0, 1.0 / 144.0}) {
+    CAPTURE(frame);
+    Driver d;
+    Bindings b = bindings();
+    b.keys[Action::throttle_more] = {GLFW_KEY_J};
+    b.keys[Action::throttle_less] = {GLFW_KEY_K};
+    b.keys[Action::brake] = {GLFW_KEY_S};
+    d.driver.rebind(b);
+    const auto tap = [&d](int key, int times) {
+      for (int i = 0; i < times; ++i) {
+        d.key(key, true);
+        d.key(key, false);
+      }
+    };
+    const auto held = [&] { return d.driver.pedal_keys().held_throttle; };
+    tap(GLFW_KEY_J, 4);
+    d.frame(frame);
+    CHECK(held() == doctest::Approx(0.4));
+    d.frame(frame);
+    CHECK(held() == doctest::Approx(0.4));
+    tap(GLFW_KEY_K, 1);
+    d.frame(frame);
+    CHECK(held() == doctest::Approx(0.3));
+    d.key(GLFW_KEY_J, true);  // held for 1 s: one step at once, and then one per 0.1 s after 0.4 s
+    for (double time = 0.0; time < 1.0 - 1e-9; time += frame) d.frame(frame);
+    CHECK(held() == doctest::Approx(0.9).epsilon(0.12));
+    d.key(GLFW_KEY_J, false);
+    tap(GLFW_KEY_J, 20);
+    d.frame(frame);
+    CHECK(held() == 1.0);
+    d.key(GLFW_KEY_S, true);
+    d.frame(frame);
+    CHECK(held() == 0.0);
+  }
+}
+
+TEST_CASE(
+    "a pedal stays where the mouse put it on the screen, until a key moves it; brake and throttle are one foot's") {
+  Driver d;
+  d.driver.move_pedal(&Pedals::clutch, 0.6);
+  d.driver.move_pedal(&Pedals::throttle, 0.3);
+  d.frame();
+  CHECK(d.driver.controls().pedals.clutch == 0.6);
+  CHECK(d.driver.controls().pedals.throttle == 0.3);
+  d.driver.move_pedal(&Pedals::brake, 2.0);
+  d.frame();
+  CHECK(d.driver.controls().pedals.brake == 1.0);
+  CHECK(d.driver.controls().pedals.throttle == 0.0);
+  d.key(GLFW_KEY_A, true);
+  d.frame();
+  CHECK(d.driver.controls().pedals.clutch == 0.0);
+  d.driver.set_car(true, 0.0);
+  d.frame();
+  CHECK(d.driver.controls().pedals.brake == 0.0);
+}
+
+TEST_CASE("the key that frees the mouse never captures it") {
+  Driver d;
+  Bindings b = bindings();
+  b.keys[Action::free_mouse] = {GLFW_KEY_N};
+  d.driver.rebind(b);
+  for (const bool captured : {false, true}) {
+    if (captured) d.click();
+    d.key(GLFW_KEY_N, true);
+    d.key(GLFW_KEY_N, false);
+    d.frame();
+    CHECK_FALSE(d.driver.mouse_moves_lever());
+  }
 }
