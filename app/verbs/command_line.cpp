@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
@@ -34,11 +38,76 @@ std::string verb_names(const CLI::App& app) {
   return names;
 }
 
+// Number of letters to insert, delete, replace or swap with their neighbour that turn one word into the other.
+std::size_t typing_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+// "; did you mean tour?" if one of the names is near the word, otherwise empty.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t kMaxWord = 40, kMaxTypos = 2;  // in longer words than the first nobody mistypes a name
+  const std::size_t allowed = std::min(kMaxTypos, (word.size() + 1) / 3);
+  std::string best;
+  std::size_t least = allowed + 1;
+  for (const std::string& name : names) {
+    const std::size_t typos = word.size() > kMaxWord ? least : typing_distance(word, name);
+    if (typos >= least) continue;
+    least = typos;
+    best = name;
+  }
+  return best.empty() ? std::string() : "; did you mean " + best + "?";
+}
+
+std::vector<std::string> option_names(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// `gearshift help` is `gearshift --help`, and `gearshift help VERB` is `gearshift VERB --help`.
+std::vector<std::string> words_of(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.front() != "help") return words;
+  words.erase(words.begin());
+  if (words.size() > 1) throw CLI::ParseError("help takes one verb", CLI::ExitCodes::ExtrasError);
+  words.emplace_back("--help");
+  return words;
+}
+
 void reject_unknown_verb(const CLI::App& app, const std::string& word) {
   const bool is_option = !word.empty() && word.front() == '-';
   const auto is_it = [&](const CLI::App* verb) { return verb->get_name() == word; };
   if (is_option || !app.get_subcommands(is_it).empty()) return;
-  throw CLI::ParseError("unknown verb \"" + word + "\"; the verbs are " + verb_names(app), CLI::ExitCodes::ExtrasError);
+  std::vector<std::string> names{"help"};
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  const std::string guess = did_you_mean(word, names);
+  throw CLI::ParseError(
+      "unknown verb \"" + word + "\"" + (guess.empty() ? "; the verbs are " + verb_names(app) : guess),
+      CLI::ExitCodes::ExtrasError);
+}
+
+// CLI11 names unknown options only; adds the option that was meant, if one is near.
+void parse(CLI::App& app, std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  try {
+    app.parse(std::move(words));
+  } catch (const CLI::ExtrasError& unknown) {
+    for (const CLI::App* verb : app.get_subcommands())
+      for (const std::string& word : verb->remaining())
+        if (const std::string guess = did_you_mean(word, option_names(*verb)); word.starts_with("--") && !guess.empty())
+          throw CLI::ParseError("unknown option \"" + word + "\"" + guess, CLI::ExitCodes::ExtrasError);
+    throw;
+  }
 }
 
 // Rejects empty paths, which usually come from an unset shell variable. With an empty path, the output would go to the
@@ -64,8 +133,10 @@ VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv) 
   if (argc < 2) {
     app.parse("train");
   } else {
-    reject_unknown_verb(app, argv[1]);
-    app.parse(argc, argv);
+    const std::vector<std::string> words = words_of(argc, argv);
+    reject_unknown_verb(app, words.front());
+    app.name(argv[0]);
+    parse(app, words);
     for (const CLI::App* verb : app.get_subcommands()) reject_empty_paths(*verb);
   }
   if (!action) throw CLI::RequiredError("A verb (" + verb_names(app) + "; see --help)");

@@ -61,7 +61,11 @@ refuse 2 "--shifts excludes --case" campaign --out c --case 5 --shifts 10
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
 refuse 1 "?[31m" gate $'\e[31m'
-refuse 2 'unknown verb "tuor"; the verbs are train, demo, lesson, drive, tour, ' tuor --out t
+refuse 2 'unknown verb "tuor"; did you mean tour?' tuor --out t
+refuse 2 'unknown verb "xyz"; the verbs are train, demo, lesson, drive, tour, ' xyz --out t
+refuse 2 'unknown option "--lerner"; did you mean --learner?' train --lerner Ada
+refuse 2 'unknown verb "tran"; did you mean train?' help tran
+refuse 2 'help takes one verb' help tour train
 refuse 2 'unknown verb ""' ""
 refuse 1 "no display"
 refuse 1 "no display" train

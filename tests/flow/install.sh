@@ -27,7 +27,7 @@ check "their files equal those in the source tree" as_in_the_source
 check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml" -o -name "*.glb" | wc -l)" -eq \
   "$(ls "$source"/assets/{bindings,cars,gates,lessons,lessons/norms,presets}/*.toml "$source"/assets/models/*.glb | wc -l)"
 check "nothing else" fails grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
-  ! -path "./share/doc/*" ! -path "./share/man/*" ! -path "./share/lintian/*" \
+  ! -path "./share/doc/*" ! -path "./share/bash-completion/*" ! -path "./share/man/*" ! -path "./share/lintian/*" \
   ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
 check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
 # Assertions contain the names of .h and .cpp files, so the check ignores these. A release build has no assertions.
