@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/base/assets_path.h"
+#include "app/lessons/assessment/gate_path.h"
 #include "app/runtime/thin_out.h"
 #include "app/session/preset_store.h"
 #include "app/session/resolve_choice.h"
@@ -106,6 +107,16 @@ void Session::advance(double seconds) {
   if (const auto news = server_link_ ? server_link_->take_message() : std::nullopt) message_ = *news;
   finish_opening();
   if (viewer_.player() != nullptr) show_replay(seconds);
+  find_way();
+}
+
+// While the lesson wants a gear that is not engaged.
+void Session::find_way() {
+  const int gear = director_.coach().prompted_gear();
+  way_.clear();
+  if (is_replaying() || gear == haptics::kNeutralGear || gear == shown_.gear) return;
+  const haptics::Gate& gate = lever_.runtime().gate();
+  way_ = lessons::shortest_path(gate, shown_.proxy, haptics::rest_position(gate, gear));
 }
 
 // Judges the lesson, and takes lever, car and events for this frame's pictures and sounds.
@@ -131,6 +142,8 @@ void Session::update_cabin(const engine::EyePose& ears, const std::optional<cabi
   if (const lessons::RecordedShift* shift = viewer_.shift()) {
     input.driven_path = shift->driven;
     input.ideal_path = shift->ideal;
+  } else {
+    input.ideal_path = way_;
   }
   stage_->place(input);
   if (stage_->take_dial_change()) new_model_ = true;
@@ -215,7 +228,13 @@ ui::PanelInput Session::panel_input() const {
           .is_automatic_hand = is_automatic_hand,
           .instructor_holds_pedals = lever_.is_car_held() && !is_automatic_hand,
           .is_unpassable = director_.is_unpassable(),
-          .headset = panel_.headset ? &*panel_.headset : nullptr};
+          .headset = panel_.headset ? &*panel_.headset : nullptr,
+          .wanted = is_replaying() ? nullptr : director_.coach().prompted_step(),
+          .wanted_gear = way_.empty() ? haptics::kNeutralGear : director_.coach().prompted_gear(),
+          .way = way_,
+          .reply = panel_.reply,
+          .held_throttle = panel_.held_throttle,
+          .engine = runtime.config().car ? &runtime.config().car->engine : nullptr};
 }
 
 }  // namespace gearshift::session

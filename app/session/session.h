@@ -79,6 +79,9 @@ class Session {
   void set_visual_offset(double offset) { visual_offset_ = offset; }
   void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
+  const std::vector<ui::KeyHint>& keys() const { return panel_.keys; }
+  void set_reply(std::string reply) { panel_.reply = std::move(reply); }  // see PanelInput::reply
+  void set_held_throttle(double held) { panel_.held_throttle = held; }    // [1] by the keys
   bool is_replaying() const { return viewer_.player() != nullptr; }
   bool is_replay_over() const { return is_replaying() && !viewer_.player()->is_playing(); }
   bool is_replaying_shift() const { return viewer_.shift() != nullptr; }
@@ -92,6 +95,8 @@ class Session {
     std::optional<cabin::HeadsetReport> headset;
     std::vector<ui::KeyHint> keys;
     bool mouse_moves_lever = false;
+    std::string reply;
+    double held_throttle = 0.0;
   };
 
   // Defined in session.cpp.
@@ -99,6 +104,7 @@ class Session {
                      cabin::Cabin cabin);
   std::span<const haptics::HapticEvent> live_events() const;
   const haptics::Gate& displayed_gate() const;
+  void find_way();
   void configure_sound(const vehicle::CarSpec& car);
   void follow(runtime::RuntimeFrame frame);
   void report_sound();
@@ -152,6 +158,7 @@ class Session {
   vehicle::VehicleState car_;                     // displayed state of the car
   std::vector<haptics::HapticSnapshot> history_;  // lever samples of this frame for the plots
   std::vector<haptics::HapticEvent> events_;
+  std::vector<glm::dvec2> way_;  // [m] from the lever to the gear that the lesson wants; empty: none
   PanelData panel_;
   std::string message_;
   std::string why_silent_;      // sound_.silence_reason() in the previous frame

@@ -109,10 +109,11 @@ struct Session::Handlers {
   }
   void operator()(const ui::CloseReplay&) const { session.close_replay(); }
 
-  // Executed by the window, which owns camera and headset.
+  // Executed by the window, which owns camera, headset and the driver's input.
   void operator()(const ui::ResetView&) const {}
   void operator()(const ui::HeadsetCommand&) const {}
   void operator()(const ui::ControlsCommand&) const {}
+  void operator()(const ui::DriveCommand&) const {}
 
   lessons::Coach& coach() const { return session.director_.coach(); }
   lessons::Player* player() const { return session.viewer_.player(); }  // null if nothing is replayed

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string_view>
 #include <thread>
@@ -24,9 +26,11 @@
 #include "app/session/panel_hand_pointer.h"
 #include "app/session/shared_input.h"
 #include "app/session/ui_scale.h"
+#include "app/ui/panel/key_legend.h"
 #include "engine/gpu/instance.h"
 #include "engine/ui/ui.h"
 #include "engine/xr/headset_thread.h"
+#include "haptics/files/atomic_file.h"
 #include "haptics/files/printable.h"
 #include "haptics/rt/monotonic_clock.h"
 
@@ -40,6 +44,8 @@ constexpr int kSettling = 3;                             // frames until every p
 constexpr double kMinFrameTime = 1.0 / 144;              // [s] shortest frame if the display does not limit the rate
 constexpr double kMaxFrameTime = 0.25;                   // [s] car and pedals advance by at most this per frame
 constexpr std::chrono::seconds kLabelInterval{1};        // between updates of the keys' labels
+constexpr std::chrono::seconds kReplyStays{3};           // how long the answer to an early key is shown
+constexpr std::chrono::seconds kQuitAsks{10};            // in which the key is pressed again to quit during a lesson
 constexpr std::chrono::seconds kViewRetry{1};            // pause between attempts to recreate the view
 constexpr std::chrono::milliseconds kHeadsetEnds{100};   // longest wait for a headset's thread at the program's end
 constexpr std::chrono::milliseconds kMaxSignalled{700};  // longest wait for a frame after a signal to end
@@ -60,10 +66,20 @@ cabin::VisibleRegion card_region(const ui::Panel& panel, glm::dvec2 size) {
   return {between.min / size, between.max / size};
 }
 
-std::vector<ui::KeyHint> key_hints(const ui::Bindings& bindings) {
+std::vector<ui::KeyHint> key_hints(const ui::DriverInput& input, const std::vector<engine::Controller>& all) {
   std::vector<ui::KeyHint> hints;
-  for (const ui::DrivingKey& key : ui::driving_keys(bindings)) hints.push_back({std::string(key.action), key.key});
+  for (const ui::DrivingKey& key : ui::driving_keys(input.bindings(), input.at_hand(), all))
+    hints.push_back({std::string(key.action), key.key});
   return hints;
+}
+
+constexpr std::string_view kEngineerView = "engineer";  // content of TrainSetup::view_file
+
+ui::PanelView first_view(const TrainSetup& setup) {
+  if (setup.panel_view) return *setup.panel_view;
+  std::ifstream file(setup.view_file);
+  std::string kept;
+  return file >> kept && kept == kEngineerView ? ui::PanelView::engineer : ui::PanelView::learner;
 }
 
 void print_unsaved(const std::string& problem) {
@@ -82,7 +98,9 @@ class WindowTrainer {
         input_(shared_.driver()),
         controls_(input_, setup.own_bindings, setup.declined_controllers, setup.shipped_bindings),
         look_(setup.choice.camera, setup.choice.drive),
+        kept_view_(first_view(setup)),
         last_frame_(Clock::now()) {
+    panel_.set_view(kept_view_);
     panel_.set_visible(setup.panel);
     if (!setup.replay.empty()) session_.open_replay(setup.replay, setup.shift, setup.from);
   }
@@ -235,10 +253,11 @@ class WindowTrainer {
     const haptics::HapticSnapshot& felt = session_.runtime().snapshot();
     input_.feel(felt.lever, felt.gear);
     session_.set_mouse_leads(input_.mouse_moves_lever());
+    session_.set_held_throttle(input_.held_throttle());
     const engine::WindowInput& polled = window_.poll();
     setup_.choice.watch->note_read(haptics::monotonic_ns());
     if (setup_.choice.watch->take_lapse()) report_message(std::string(kLapse));
-    if (wears() && headset_->take_opened()) panel_.set_visible(true);
+    if (wears() && headset_->take_opened()) panel_.set_view(ui::PanelView::engineer);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
     // The stick that is the lever may be listed, too, until the program has opened it.
@@ -257,15 +276,59 @@ class WindowTrainer {
     if (setup_.choice.stick) input_.release_mouse();
     report_controllers();
     update_key_labels();
+    answer_early_input();
     look_.turn(shared_.turned());
   }
 
   // The layout of the keyboard may change while the program runs; GLFW has no event for this.
   void update_key_labels() {
-    if (last_frame_ < next_labels_) return;
+    if (last_frame_ < next_labels_ && input_.at_hand() == labelled_) return;
     next_labels_ = last_frame_ + kLabelInterval;
-    session_.set_keys(key_hints(input_.bindings()));
+    labelled_ = input_.at_hand();
+    session_.set_keys(key_hints(input_, controllers_));
     if (help_) show_help();
+  }
+
+  // Says at once which control comes first, and for a moment after.
+  void answer_early_input() {
+    const auto has = [&](ui::Action action) {
+      return std::find(input_.pressed().begin(), input_.pressed().end(), action) != input_.pressed().end();
+    };
+    ui::EarlyInput early;
+    early.starter = input_.holds_starter();
+    early.shifts = has(ui::Action::shift_up) || has(ui::Action::shift_down);
+    early.throttle = has(ui::Action::throttle_more) || input_.pedal_keys().throttle;
+    std::string reply = session_.is_replaying() ? "" : ui::early_reply(early, session_.car(), session_.keys());
+    if (!reply.empty()) reply_until_ = last_frame_ + kReplyStays;
+    if (!reply.empty() || last_frame_ > reply_until_) session_.set_reply(std::move(reply));
+  }
+
+  // Keeps the view that the user has chosen. The next start without the file shows the learner's view.
+  void keep_view() {
+    if (wears() || panel_.view() == kept_view_ || panel_.view() == ui::PanelView::hidden) return;
+    kept_view_ = panel_.view();
+    if (setup_.view_file.empty()) return;
+    try {
+      std::filesystem::create_directories(setup_.view_file.parent_path());
+      haptics::write_text_file(setup_.view_file, kept_view_ == ui::PanelView::engineer ? "engineer\n" : "learner\n");
+    } catch (const std::exception& refused) {
+      report_message(refused.what());
+    }
+  }
+
+  // During a lesson the first press asks.
+  void quit() {
+    const bool asks = session_.coach().view().phase == lessons::LessonPhase::driving && last_frame_ > quit_until_;
+    quit_until_ = last_frame_ + kQuitAsks;
+    if (!asks) quit_ = true;
+    if (asks) report_message("Press the key again to quit; this ends the lesson. Otherwise drive on.");
+  }
+
+  void drive(const ui::DriveCommand& command) {
+    if (const auto* pedal = std::get_if<ui::MovePedal>(&command)) input_.move_pedal(pedal->pedal, pedal->to);
+    if (const auto* shift = std::get_if<ui::ShiftTo>(&command)) input_.shift_to(shift->gear);
+    if (const auto* starter = std::get_if<ui::HoldStarter>(&command)) input_.hold_starter(starter->on);
+    if (const auto* press = std::get_if<ui::Press>(&command)) input_.perform(press->control);
   }
 
   void report(const std::string& message) {
@@ -354,7 +417,10 @@ class WindowTrainer {
         if (is_worn())
           headset_->toggle_panel();
         else
-          panel_.set_visible(!panel_.visible());
+          panel_.set_view(panel_.view() == ui::PanelView::learner ? ui::PanelView::engineer : ui::PanelView::learner);
+        break;
+      case ui::Action::lessons:
+        panel_.toggle_lessons();
         break;
       case ui::Action::next_camera:
         if (wears()) break;
@@ -373,7 +439,7 @@ class WindowTrainer {
         input_.release_mouse();
         break;
       case ui::Action::quit:
-        quit_ = true;
+        quit();
         break;
       default:
         break;  // driving actions, which DriverInput handles
@@ -414,10 +480,12 @@ class WindowTrainer {
       if (std::holds_alternative<ui::ResetView>(command)) look_.recentre();
       const auto* seat = std::get_if<ui::HeadsetCommand>(&command);
       if (seat && wears()) headset_->apply(*seat, bound);
+      if (const auto* driven = std::get_if<ui::DriveCommand>(&command)) drive(*driven);
       if (const auto* controls = std::get_if<ui::ControlsCommand>(&command))
         report(controls_.apply(*controls, session_.runtime().gate()));
     }
     panel_has_keys_ = panel_.has_keyboard();
+    keep_view();
     return commands;
   }
 
@@ -456,6 +524,7 @@ class WindowTrainer {
   ui::DriverInput& input_;
   ControlsAssistant controls_;
   CabinCamera look_;
+  ui::PanelView kept_view_;
   LessonLines lines_;
   Clock::time_point last_frame_;
   double seconds_ = 1.0 / 60.0;                    // [s] duration of this frame
@@ -464,7 +533,8 @@ class WindowTrainer {
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
-  Clock::time_point next_view_{}, view_quiet_until_{}, next_labels_{};
+  Clock::time_point next_view_{}, view_quiet_until_{}, next_labels_{}, reply_until_{}, quit_until_{};
+  ui::DeviceAtHand labelled_ = ui::DeviceAtHand::keyboard;
   std::optional<runtime::LoopHealth> health_;  // health of the loop in the newest frame
   std::string printed_message_;
   std::vector<engine::Controller> controllers_;  // plugged in, without the stick that is the lever
@@ -507,6 +577,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   const CabinCamera look(setup.choice.camera, setup.choice.drive);
   engine::UiContext ui;
   ui::Panel panel;
+  if (setup.panel_view) panel.set_view(*setup.panel_view);
   panel.set_visible(setup.panel);
   if (!setup.replay.empty()) session.open_replay(setup.replay, setup.shift, setup.from);
   cabin::CabinView view(setup.view, nullptr, &ui);

@@ -21,10 +21,12 @@ struct TrainSetup {
   std::filesystem::path declined_controllers;  // file with the controllers not to offer for setting up; empty: none
   std::string stick_id;                        // USB id of the force-feedback stick, as Controller::id; empty: none
   bool panel = true;
-  std::optional<HeadsetSetup> headset;  // empty: desktop only
-  std::filesystem::path replay;         // recording to replay; empty: none
-  std::optional<std::size_t> shift;     // shift to replay, counted from 0; empty: the whole recording
-  double from = 0.0;                    // [s] start position in the recording
+  std::optional<ui::PanelView> panel_view;  // empty: as in `view_file`, and the learner's if there is no such file
+  std::filesystem::path view_file;          // keeps the user's choice of the view; empty: it is not kept
+  std::optional<HeadsetSetup> headset;      // empty: desktop only
+  std::filesystem::path replay;             // recording to replay; empty: none
+  std::optional<std::size_t> shift;         // shift to replay, counted from 0; empty: the whole recording
+  double from = 0.0;                        // [s] start position in the recording
 };
 
 // Runs until the user quits. Prints a line for each engaged gear. Returns the exit code, which is 1 if the last

@@ -33,6 +33,7 @@ struct TrainArguments {
   int samples = 0;  // samples per pixel; 0: 4 on a GPU, 1 with a software driver
   std::string database, replay;
   std::optional<std::size_t> shift;
+  std::string view;  // of the panel: learner or engineer; empty: as chosen last
   bool stereo = false, no_panel = false, silent = false;
   bool xr = false;
   double xr_scale = 1.0;         // [1] see HeadsetViewConfig::scale
@@ -104,6 +105,9 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   else if (!folder.empty())
     setup.own_bindings = ui::user_bindings_file(folder, std::string(session::kOwnBindings));
   if (!folder.empty()) setup.declined_controllers = folder / "declined_controllers.txt";
+  if (!folder.empty()) setup.view_file = folder / "view.txt";
+  if (!arguments.view.empty())
+    setup.panel_view = arguments.view == "learner" ? ui::PanelView::learner : ui::PanelView::engineer;
   setup.choice.pedal_timing = setup.bindings.pedal_timing;
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
   setup.panel = !arguments.no_panel && !arguments.stereo;
@@ -250,6 +254,9 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->expected(3)
       ->needs(xr)
       ->check(number_between(-1.5, 1.5));
+  verb->add_option("--view", arguments->view,
+                   "view to start with: learner or engineer; if omitted: the one chosen last, at first the learner's")
+      ->check(CLI::IsMember({"learner", "engineer"}));
   verb->add_flag("--no-panel", arguments->no_panel, "start without the panel; press F2 to show it");
   verb->add_flag("--silent", arguments->silent, "turn the sound off");
   CLI::Option* offscreen =

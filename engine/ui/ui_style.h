@@ -41,9 +41,9 @@ inline constexpr ImU32 kText = IM_COL32(226, 232, 239, 255);
 inline constexpr ImU32 kSoft = IM_COL32(146, 158, 171, 255);
 inline constexpr ImU32 kAccent = IM_COL32(86, 171, 214, 255);
 inline constexpr ImU32 kAccentDeep = IM_COL32(40, 92, 122, 255);
-inline constexpr ImU32 kGood = IM_COL32(98, 186, 122, 255);
+inline constexpr ImU32 kGood = IM_COL32(142, 203, 141, 255);
 inline constexpr ImU32 kWarn = IM_COL32(238, 170, 66, 255);
-inline constexpr ImU32 kBad = IM_COL32(226, 76, 66, 255);
+inline constexpr ImU32 kBad = IM_COL32(249, 109, 93, 255);
 inline constexpr ImU32 kBadDeep = IM_COL32(190, 40, 35, 255);
 }  // namespace ink
 

@@ -135,6 +135,23 @@ std::string_view thing_to_mend(const Lesson& lesson, const LessonResult& result,
   return {};
 }
 
+std::string_view what_was_good(const LessonResult& result) noexcept {
+  const auto has = [&](std::initializer_list<ErrorKind> kinds) {
+    return std::any_of(result.errors.begin(), result.errors.end(), [&](const DrivingError& error) {
+      return error.severity > Severity::note && std::find(kinds.begin(), kinds.end(), error.kind) != kinds.end();
+    });
+  };
+  const bool has_error = std::any_of(result.errors.begin(), result.errors.end(),
+                                     [](const DrivingError& error) { return error.severity > Severity::note; });
+  if (result.end == LessonEnd::left || result.end == LessonEnd::running) return {};
+  if (result.end == LessonEnd::done && !has_error) return "every step, without an error.";
+  if (!result.shifts.empty() && !has({ErrorKind::grind, ErrorKind::no_clutch, ErrorKind::missed_shift,
+                                      ErrorKind::wrong_gear, ErrorKind::wrong_column}))
+    return "the lever found its gears, without grinding.";
+  if (!has({ErrorKind::stall}) && result.duration > 0.0) return "the engine kept running.";
+  return result.end == LessonEnd::done ? "you finished every step." : std::string_view();
+}
+
 double points_lost(const LessonResult& result) noexcept {
   double points = 0.0;
   for (const DrivingError& error : result.errors) points += error.points;

@@ -17,6 +17,9 @@
 namespace gearshift::lessons {
 namespace {
 
+// [s] A guided run has no clock, but ends some time, also with a simulated driver that never does the next step.
+constexpr double kMaxGuided = 600.0;
+
 // [s] Longest wait after the last step for a shift in progress to end. Engineering value.
 constexpr double kMaxShiftOverrun = 3.0;
 // [s] Time to read the two prompts that appear while the clutch is down. Each takes 0.75 s to react to an expected
@@ -168,7 +171,7 @@ void LessonRun::add(const vehicle::DriveSample& sample) {
   const bool shift_ends = !state.meter.is_open() && !state.meter.is_pending();
   if (state.all_done() && (shift_ends || time - state.steps_done > kMaxShiftOverrun)) {
     state.end(LessonEnd::done);
-  } else if (state.result.duration >= state.lesson.time_limit) {
+  } else if (state.result.duration >= (state.result.guided ? kMaxGuided : state.lesson.time_limit)) {
     state.end(LessonEnd::out_of_time);
   } else {
     state.update_hint(sample);

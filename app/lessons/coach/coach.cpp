@@ -243,6 +243,18 @@ double Coach::pedal_help() const noexcept {
   return state_->is_driving() ? state_->view.pedal_help : 0.0;
 }
 
+const DriveCondition* Coach::prompted_step() const noexcept {
+  const State& state = *state_;
+  if (!state.is_driving() || state.view.now->step >= state.lesson->steps.size()) return nullptr;
+  const LessonStep& step = state.lesson->steps[state.view.now->step];
+  return state.view.mode == LessonMode::follow_me || step.call ? &step.until : nullptr;
+}
+
+int Coach::prompted_gear() const noexcept {
+  const DriveCondition* step = prompted_step();
+  return step == nullptr ? haptics::kNeutralGear : step->gear.value_or(haptics::kNeutralGear);
+}
+
 int Coach::guided_gear() const noexcept {
   return state_->is_driving() ? state_->view.now->guided_gear : haptics::kNeutralGear;
 }
@@ -431,7 +443,7 @@ void Coach::State::finish_trial() {
   memory.reload();  // the instructor may have chosen a different lesson
   const LessonResult& result = run->result();
   const bool finished = is_graded(result);
-  if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
+  if (finished && result.passed && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
   refresh_view();
   show_mode();
   view.mend = thing_to_mend(*lesson, result, run->norm());

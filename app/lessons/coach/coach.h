@@ -94,6 +94,10 @@ class Coach {
   double pedal_help() const noexcept;  // 0 while no lesson is running
   int guided_gear() const noexcept;
 
+  // What the present step waits for, and its gear, if its prompt is shown; null and kNeutralGear otherwise.
+  const DriveCondition* prompted_step() const noexcept;
+  int prompted_gear() const noexcept;
+
   // For the instructor. These functions throw std::invalid_argument for a lesson that is not in the config, a run of a
   // different learner, a comment of a different run, or an invalid name or comment (app/lessons/history/user_text.h).
   void set_next(std::string_view lesson);  // lesson key; empty: the suggested lesson

@@ -128,12 +128,28 @@ struct SaveControls {};
 struct CancelControls {};
 using ControlsCommand = std::variant<StartControls, DeclineControls, AnswerControls, SaveControls, CancelControls>;
 
+// Driving by the mouse alone.
+struct MovePedal {
+  double haptics::Pedals::*pedal;
+  double to;  // [1] 0 to 1
+};
+struct ShiftTo {
+  int gear;
+};
+struct HoldStarter {  // while the button is held, and once when it is released
+  bool on;
+};
+struct Press {  // hand_brake or ignition
+  Action control;
+};
+using DriveCommand = std::variant<MovePedal, ShiftTo, HoldStarter, Press>;
+
 using PanelCommand =
     std::variant<Stop, Arm, Disarm, ToggleRecording, ReplayLastRecording, ResetView, ChangeTuning, Restart, ChooseGate,
                  ChooseCar, ChoosePreset, ChooseHand, SavePreset, ComparePreset, OfferLesson, BeginLesson, LeaveLesson,
                  DismissLesson, SetMode, SetHelp, ChooseLearner, RenameLearner, ChooseNextLesson, AddComment,
                  EditComment, DeleteComment, OpenShift, ShowShift, ShowWholeDrive, SeekReplay, PlayReplay, SetPace,
-                 CloseReplay, HeadsetCommand, ControlsCommand>;
+                 CloseReplay, HeadsetCommand, ControlsCommand, DriveCommand>;
 using PanelCommands = std::vector<PanelCommand>;
 
 }  // namespace gearshift::ui

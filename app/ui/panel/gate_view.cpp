@@ -141,6 +141,25 @@ void draw_places(const Canvas& c, const haptics::Gate& gate, const haptics::Hapt
   }
 }
 
+// Fills the slot, from the middle of the aisle to its end.
+void draw_wanted(const Canvas& c, const haptics::Gate& gate, int gear) {
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    if (slot.gear != gear || gear == haptics::kNeutralGear) continue;
+    if (haptics::is_mechanism(gate)) {
+      c.list.AddCircleFilled(c.frame.at(slot.at), c.frame.length(slot.end - slot.engage_depth),
+                             engine::with_alpha(ink::kIdeal, 0.28f));
+      continue;
+    }
+    const haptics::Column& column = haptics::column_of(gate, slot.column);
+    const double side = static_cast<int>(slot.side);
+    const ImVec2 a = c.frame.at({column.center - column.half_width, 0.0}),
+                 b = c.frame.at({column.center + column.half_width, side * slot.end});
+    const ImVec2 low(a.x, std::min(a.y, b.y)), high(b.x, std::max(a.y, b.y));
+    c.list.AddRectFilled(low, high, engine::with_alpha(ink::kIdeal, 0.28f));
+    c.list.AddRect(low, high, ink::kIdeal, 0.0f, 0, 0.12f * c.em);
+  }
+}
+
 void draw_gears(const Canvas& c, const haptics::Gate& gate, const haptics::HapticSnapshot& now) {
   if (haptics::is_mechanism(gate)) return draw_places(c, gate, now);
   for (const haptics::Slot& slot : haptics::slots(gate)) {
@@ -239,24 +258,41 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateD
                     const haptics::HapticSnapshot& now, const Trail& trail, double max_force, const ShownPaths& paths) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
-  const float em = engine::ui_em(), foot = engine::ui_font_size(engine::UiFont::small) + 0.3f * em;
+  const bool with_forces = max_force > 0.0;
+  const float em = engine::ui_em(), foot = with_forces ? engine::ui_font_size(engine::UiFont::small) + 0.3f * em : 0.0f;
   const Extent box = extent_of(gate, description);
   const Canvas c{*ImGui::GetWindowDrawList(), fit(box, low, {size.x, size.y - foot}), em};
   const double px_per_n =
-      kArrowFraction * static_cast<double>(std::min(size.x, size.y - foot)) / std::max(max_force, 1.0);
+      with_forces ? kArrowFraction * static_cast<double>(std::min(size.x, size.y - foot)) / std::max(max_force, 1.0)
+                  : 0.0;
   c.list.PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
   c.list.AddRectFilled(c.frame.at({box.min.x, box.max.y}), c.frame.at({box.max.x, box.min.y}), ink::kPlate, 0.6f * em);
   draw_free_space(c, description);
   draw_buffers(c, gate);
   draw_lockouts(c, gate);
+  draw_wanted(c, gate, paths.wanted_gear);
   draw_walls(c, description);
   draw_gears(c, gate, now);
   draw_trail(c, trail);
   draw_driven_path(c, paths.driven);
   draw_ideal_path(c, paths.ideal);
   draw_lever(c, now, px_per_n);
-  draw_scales(c, low, size, px_per_n);
+  if (with_forces) draw_scales(c, low, size, px_per_n);
   c.list.PopClipRect();
+}
+
+std::optional<int> gear_at(const haptics::Gate& gate, ImVec2 at) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const Extent box = extent_of(gate);
+  const GateFrame frame = fit(box, low, {high.x - low.x, high.y - low.y});
+  const glm::dvec2 p = frame.center + glm::dvec2(at.x - frame.middle.x, frame.middle.y - at.y) / frame.px_per_m;
+  if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) return std::nullopt;
+  const int column = haptics::nearest_column(gate, p.x);
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    const double depth = static_cast<int>(slot.side) * p.y;
+    if (slot.column == column && depth > gate.half_aisle) return slot.gear;
+  }
+  return haptics::kNeutralGear;
 }
 
 }  // namespace gearshift::ui

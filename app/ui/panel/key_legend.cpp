@@ -1,10 +1,16 @@
 #include "app/ui/panel/key_legend.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
+#include "haptics/files/ascii.h"
+#include "haptics/gate/gate.h"
 
 namespace gearshift::ui {
 namespace {
@@ -24,7 +30,73 @@ void draw_cap(const std::string& key) {
   list.AddText(font, engine::ui_font_size(font), {low.x + 0.35f * em, low.y}, ink::kText, key.c_str());
 }
 
+// A phrase of the prompts, in lower case, and the action that does it. A longer phrase comes before a part of it.
+struct Mention {
+  std::string_view phrase, action;
+};
+constexpr Mention kMentions[] = {{"start the engine", "starter"},
+                                 {"switch the engine off", "ignition"},
+                                 {"starter", "starter"},
+                                 {"ignition", "ignition"},
+                                 {"handbrake", "handbrake"},
+                                 {"clutch", "clutch"},
+                                 {"brake", "brake"},
+                                 {"throttle", "throttle"},
+                                 {"accelerate", "throttle"},
+                                 {"revs", "throttle"}};
+
+bool is_letter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+
+// Where the phrase ends in the text as whole words, in any case; npos if it is not there.
+std::size_t end_of_phrase(std::string_view text, std::string_view phrase) {
+  for (std::size_t i = 0; i + phrase.size() <= text.size(); ++i) {
+    const std::size_t end = i + phrase.size();
+    const bool is_whole = (i == 0 || !is_letter(text[i - 1])) && (end == text.size() || !is_letter(text[end]));
+    const auto equal = [](char a, char b) { return haptics::ascii_lower(a) == b; };
+    if (is_whole && std::equal(phrase.begin(), phrase.end(), text.begin() + static_cast<std::ptrdiff_t>(i),
+                               [&](char b, char a) { return equal(a, b); }))
+      return end;
+  }
+  return std::string_view::npos;
+}
+
+// The key of the action; empty if the device at hand names it itself, or has none.
+std::string_view key_of(std::span<const KeyHint> keys, std::string_view action) {
+  const auto hint = std::find_if(keys.begin(), keys.end(), [&](const KeyHint& one) { return one.action == action; });
+  return hint == keys.end() ? std::string_view() : std::string_view(hint->key);
+}
+
+std::string first(std::string_view what, std::string_view key) {
+  return key.empty() ? fmt::format("{} first.", what) : fmt::format("{} first: {}.", what, key);
+}
+
 }  // namespace
+
+std::string name_inputs(std::string_view text, std::span<const KeyHint> keys) {
+  std::string named(text);
+  std::vector<std::string_view> done;
+  for (const Mention& mention : kMentions) {
+    const std::string_view key = key_of(keys, mention.action);
+    const std::size_t end = end_of_phrase(named, mention.phrase);
+    if (key.empty() || end == std::string::npos || std::find(done.begin(), done.end(), key) != done.end()) continue;
+    named.insert(end, fmt::format(" ({})", key));
+    done.push_back(key);
+  }
+  return named;
+}
+
+std::string early_reply(const EarlyInput& input, const vehicle::VehicleState& car, std::span<const KeyHint> keys) {
+  if (car.clutch_bite <= 0.0) return {};
+  const bool is_off = !car.running && !car.ignition, clutch_up = car.pedals.clutch < car.clutch_bite;
+  if (is_off && (input.starter || input.throttle)) return first("Ignition", key_of(keys, "ignition"));
+  if (!car.running && input.starter && car.gear != haptics::kNeutralGear && clutch_up)
+    return first("Clutch", key_of(keys, "clutch"));
+  if (!car.running && input.throttle && !car.cranking) return first("Starter", key_of(keys, "starter"));
+  if (car.running && input.shifts && clutch_up) return first("Clutch", key_of(keys, "clutch"));
+  return {};
+}
 
 void draw_keys(std::span<const KeyHint> keys) {
   const float em = engine::ui_em();

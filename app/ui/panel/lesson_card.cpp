@@ -21,6 +21,7 @@ namespace {
 constexpr float kMaxCardWidth = 52.0f;  // [em]
 // Usual and maximum height of the card as fractions of the available height [1], and its minimum height [em].
 constexpr float kHeightFraction = 0.25f, kMaxHeightFraction = 0.62f, kMinHeight = 10.8f;
+constexpr float kMaxLearnerFraction = 0.95f, kMinLearnerHeight = 6.0f;  // the same in the learner's view
 constexpr double kFreshTime = 5.0;        // [s] how long a new feedback sentence is drawn large
 constexpr std::size_t kOlderShown = 2;    // number of older feedback sentences shown
 constexpr double kLittleTimeLeft = 20.0;  // [s] remaining time below which the time is shown as a warning
@@ -62,6 +63,8 @@ bool draw_switch(Controls& controls, const char* name, const char* first, const 
   return pressed;
 }
 
+constexpr const char* kLeverPrompt =
+    "Lever: click the cabin and use the mouse, click a gear below, or press the arrow keys. F1 shows all keys.";
 constexpr const char* kFollowMe = "Follow me";
 constexpr const char* kByYourself = "Do it yourself";
 constexpr const char* kGuideMyHand = "Help me";
@@ -120,7 +123,7 @@ std::string format_time_left(double seconds) {
 }
 
 void draw_time_left(const lessons::CoachView& coach) {
-  if (coach.time_limit <= 0.0) return;
+  if (coach.time_limit <= 0.0 || coach.guidance > 0.0 || coach.pedal_help > 0.0) return;
   const double left = coach.time_limit - coach.result->duration;
   const std::string words = format_time_left(left);
   same_line_if_fits(width_of(words, engine::UiFont::small));
@@ -156,18 +159,20 @@ void draw_next(const lessons::CoachView& coach, bool has_next) {
 
 }  // namespace
 
-double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
+double LessonCard::draw(Controls& controls, const PanelInput& input, PanelView view, const ControlRect& room,
                         PanelCommands& out) {
   const lessons::CoachView& coach = input.coach;
   note_new_feedback(coach);
   const float em = engine::ui_em(), width = bottom_width(room, kMaxCardWidth);
   const auto height = static_cast<float>(room.max.y - room.min.y);
-  const ImVec2 min_size(width,
-                        std::min(std::max(kHeightFraction * height, kMinHeight * em), kMaxHeightFraction * height));
-  follow(coach, min_size);
+  const float usual =
+      view == PanelView::learner ? kMinLearnerHeight * em : std::max(kHeightFraction * height, kMinHeight * em);
+  const float most = view == PanelView::learner ? kMaxLearnerFraction * height : kMaxHeightFraction * height;
+  const ImVec2 min_size(width, std::min(usual, most));
+  follow(coach, view, min_size);
   if (coach.phase == lessons::LessonPhase::none || width < kMinBottomWidth * em) return room.max.y;
-  const ImVec2 size(width, std::floor(std::max(min_size.y, std::min(needed_, kMaxHeightFraction * height))));
-  FrameContext now{controls, input, coach, panel_shown, are_forces_off(input), out};
+  const ImVec2 size(width, std::floor(std::max(min_size.y, std::min(needed_, most))));
+  FrameContext now{controls, input, coach, view, are_forces_off(input), out};
   if (begin_card(room, size)) {
     if (coach.phase == lessons::LessonPhase::offered) draw_offered(now);
     if (coach.phase == lessons::LessonPhase::driving) draw_driving(now);
@@ -177,10 +182,13 @@ double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_
   return room.max.y - static_cast<double>(size.y + kBottomMargin * em);
 }
 
-// Resets the needed height if the lesson or the screen size changes.
-void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
-  if (coach.lesson == lesson_ && size.x == size_.x && size.y == size_.y) return;
+// Resets the needed height if the lesson or the screen size changes, and in the learner's view with each step.
+void LessonCard::follow(const lessons::CoachView& coach, PanelView view, ImVec2 size) {
+  const std::size_t step = coach.now == nullptr ? 0 : coach.now->step;
+  const std::size_t part = view == PanelView::learner ? 1 + static_cast<std::size_t>(coach.phase) + 4 * step : 0;
+  if (coach.lesson == lesson_ && part == part_ && size.x == size_.x && size.y == size_.y) return;
   lesson_ = coach.lesson;
+  part_ = part;
   size_ = size;
   needed_ = 0.0f;
 }
@@ -215,15 +223,18 @@ void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const 
 
 // Draws the key legend and a prompt that says what moves the lever; while the panel is hidden, also the car's state.
 void LessonCard::draw_controls_and_car(const FrameContext& now) {
-  if (!now.input.keys.empty() && !now.input.is_automatic_hand) {
+  const bool is_learner = now.view == PanelView::learner, drives = now.coach.phase == lessons::LessonPhase::driving;
+  if (is_learner && drives && !now.input.is_automatic_hand && !now.input.stick) {
+    put(now.input.mouse_moves_lever ? mouse_prompt(true, true) : kLeverPrompt, ink::kSoft, engine::UiFont::small);
+  } else if (!now.input.keys.empty() && !now.input.is_automatic_hand) {
     draw_keys(now.input.keys);
-    const char* mouse =
-        now.input.stick ? "Move the lever with the stick" : mouse_prompt(now.input.mouse_moves_lever, now.panel_shown);
+    const char* mouse = now.input.stick ? "Move the lever with the stick"
+                                        : mouse_prompt(now.input.mouse_moves_lever, now.view != PanelView::hidden);
     ImGui::SameLine(0.0f, 0.8f * engine::ui_em());
     if (ImGui::GetContentRegionAvail().x < width_of(mouse, engine::UiFont::small)) ImGui::NewLine();
     put(mouse, now.input.mouse_moves_lever ? ink::kAccent : ink::kSoft, engine::UiFont::small);
   }
-  if (!now.panel_shown) draw_car_strip(now.input.car, now.input.now.gear, now.coach.pedal_help);
+  if (now.view == PanelView::hidden) draw_car_strip(now.input.car, now.input.now.gear, now.coach.pedal_help);
 }
 
 void LessonCard::draw_offered(FrameContext& now) {
@@ -280,10 +291,12 @@ void LessonCard::draw_driving(FrameContext& now) {
 // Returns the height that must be visible [px]: everything except the older sentences.
 float LessonCard::draw_prompts(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
-  put_wrapped(coach.now->prompt, ink::kText, engine::UiFont::prompt);
+  put_wrapped(name_inputs(coach.now->prompt, now.input.keys), ink::kText, engine::UiFont::prompt);
+  if (!now.input.reply.empty()) put_wrapped(now.input.reply, ink::kBad, engine::UiFont::title);
   if (now.forces_off) put_wrapped(forces_off_text(now.input), ink::kBad, engine::UiFont::title);
   if (now.input.car.stalled) draw_restart_prompt(now.input.keys);
-  if (!coach.now->hint.empty()) put_wrapped(coach.now->hint, ink::kAccent, engine::UiFont::body);
+  if (!coach.now->hint.empty())
+    put_wrapped(name_inputs(coach.now->hint, now.input.keys), ink::kAccent, engine::UiFont::body);
   if (now.input.is_unpassable)
     put_wrapped("You can no longer pass this attempt. Keep practising, or press \"Leave\" and start again.",
                 ink::kWarn);

@@ -14,19 +14,19 @@ class LessonCard {
  public:
   // Draws along the lower edge of `room` [px]. Returns the card's upper edge [px], or the lower edge of `room` if no
   // lesson is selected or no text fits. The height is the same in all phases of a lesson unless a text needs more.
-  // While the panel is hidden, the card also shows the car's state.
-  double draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
-              PanelCommands& out);
+  // While the panel is hidden, the card also shows the car's state. In the learner's view it is as low as its texts allow.
+  double draw(Controls& controls, const PanelInput& input, PanelView view, const ControlRect& room, PanelCommands& out);
 
  private:
   struct FrameContext {
     Controls& controls;
     const PanelInput& input;
     const lessons::CoachView& coach;
-    bool panel_shown, forces_off;
+    PanelView view;
+    bool forces_off;
     PanelCommands& out;
   };
-  void follow(const lessons::CoachView& coach, ImVec2 size);
+  void follow(const lessons::CoachView& coach, PanelView view, ImVec2 size);
   void note_new_feedback(const lessons::CoachView& coach);
   template <class Body, class Foot>
   void draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot);
@@ -40,6 +40,7 @@ class LessonCard {
   std::size_t feedback_count_ = 0;  // number of feedback sentences in the last frame
   double feedback_time_ = -1e9;     // [s] arrival of the newest sentence, on ImGui's clock
   std::string lesson_;              // the lesson that size_ and needed_ belong to
+  std::size_t part_ = 0;            // what else they belong to: in the learner's view, phase and step
   ImVec2 size_{0.0f, 0.0f};         // [px] minimum size of the card
   float needed_ = 0.0f;             // [px] largest height that this lesson's texts have needed
   std::array<float, 4> foot_{};     // [px] height of the controls below the texts, per phase of the lesson

@@ -52,6 +52,8 @@ void draw_outcome(const lessons::CoachView& coach) {
   put_wrapped(coach.title, ink::kSoft, engine::UiFont::small);
   put(format_outcome(result), lessons::is_graded(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
   if (!result.why.empty()) put_wrapped(result.why, ink::kText, engine::UiFont::body);
+  if (const std::string_view good = lessons::what_was_good(result); !good.empty())
+    put_wrapped(fmt::format("Good: {}", good), ink::kGood, engine::UiFont::body);
   if (!coach.mend.empty()) put_wrapped(fmt::format("To mend: {}", coach.mend), ink::kWarn, engine::UiFont::body);
   if (!coach.mastery.empty()) put_wrapped(coach.mastery, ink::kAccent, engine::UiFont::body);
   ImGui::EndGroup();

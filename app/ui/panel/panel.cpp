@@ -14,6 +14,7 @@
 #include "app/ui/panel/headset_tab.h"
 #include "app/ui/panel/help_view.h"
 #include "app/ui/panel/history_view.h"
+#include "app/ui/panel/learner_view.h"
 #include "app/ui/panel/lesson_card.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/lessons_view.h"
@@ -134,7 +135,8 @@ ShownPaths shown_paths(const PanelInput& input) {
 }  // namespace
 
 struct Panel::State {
-  bool visible = true;
+  PanelView view = PanelView::engineer, shown = PanelView::engineer;  // `shown`: the last one that was not hidden
+  bool lists_lessons = false;                                         // beside the learner's view
   bool help = false;
   std::string bindings;
   std::vector<TuningView::Step> steps;  // steps requested between two frames
@@ -163,6 +165,9 @@ struct Panel::State {
   void draw_right(const Layout& layout, const PanelInput& input, PanelCommands& out);
   void draw_choices(const PanelInput& input, PanelCommands& out);
   void draw_tabs(const PanelInput& input, PanelCommands& out);
+  void draw_lists(float bottom, const PanelInput& input, PanelCommands& out);
+  void draw_learner(const PanelInput& input, PanelCommands& out);
+  void draw_engineer(const PanelInput& input, PanelCommands& out);
   void draw_over_cabin(const PanelInput& input, PanelCommands& out);
   void draw_bar(const Layout& layout, const PanelInput& input, PanelCommands& out);
 };
@@ -292,11 +297,13 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 // cabin's area.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelCommands& out) {
   const ControlRect room = central_area = cabin_area;
-  note.draw(input.message, message_fits, stick_request(input), room);
+  const bool has_card = input.coach.phase == lessons::LessonPhase::driving;
+  const std::string_view to_do = input.reply.empty() || has_card ? stick_request(input) : input.reply;
+  note.draw(input.message, message_fits, to_do, room);
   cabin_area.max.y = replay.draw(controls, input, room, out);
   const bool shows_lesson = input.replay == nullptr || input.coach.phase == lessons::LessonPhase::driving;
   if (shows_lesson && input.controls.setup == nullptr)
-    cabin_area.max.y = card.draw(controls, input, visible, cabin_area, out);
+    cabin_area.max.y = card.draw(controls, input, view, cabin_area, out);
   cabin_area.max.y = draw_controls_card(controls, input, cabin_area, out);
 }
 
@@ -306,6 +313,51 @@ void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, Panel
   ImGui::End();
 }
 
+// Lessons and history in a column at the right, above the learner's strip.
+void Panel::State::draw_lists(float bottom, const PanelInput& input, PanelCommands& out) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float width = std::min(std::clamp(0.3f * screen.x, 20.5f * engine::ui_em(), 30.0f * engine::ui_em()), screen.x);
+  if (begin_part("Lists", {screen.x - width, 0.0f}, {width, bottom})) {
+    if (ImGui::BeginTabBar("lists")) {
+      const auto tab = [&](const Tab& which, const auto& draw_it) {
+        const bool open = ImGui::BeginTabItem(which.label);
+        controls.mark(which.name);
+        if (!open) return;
+        begin_child(which.name, {0.0f, 0.0f});
+        draw_it();
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      };
+      tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out); });
+      tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
+      ImGui::EndTabBar();
+    }
+  }
+  ImGui::End();
+  cabin_area.max.x = static_cast<double>(screen.x - width);
+}
+
+void Panel::State::draw_learner(const PanelInput& input, PanelCommands& out) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float height = learner_strip_height(screen);
+  cabin_area.max.y = static_cast<double>(screen.y - height);
+  if (lists_lessons) draw_lists(screen.y - height, input, out);
+  if (begin_part(kBarName, {0.0f, screen.y - height}, {screen.x, height})) {
+    const LearnerChoice chosen = draw_learner_strip(controls, input, viewed, lists_lessons, out);
+    if (chosen.lessons) lists_lessons = !lists_lessons;
+    if (chosen.engineer) view = shown = PanelView::engineer;
+  }
+  ImGui::End();
+}
+
+void Panel::State::draw_engineer(const PanelInput& input, PanelCommands& out) {
+  const Layout layout = make_layout();
+  cabin_area = {{layout.left, 0.0}, {layout.screen.x - layout.right, layout.screen.y - layout.bar}};
+  if (layout.left > 0.0f) draw_left(layout, input, out);
+  draw_right(layout, input, out);
+  draw_bar(layout, input, out);
+}
+
 Panel::Panel() : state_(std::make_unique<State>()) {}
 Panel::~Panel() = default;
 
@@ -313,20 +365,16 @@ PanelCommands Panel::draw(const PanelInput& input) {
   State& s = *state_;
   PanelCommands out;
   s.controls.begin_frame();
-  update_keyboard_focus(kBarName, s.visible);
+  update_keyboard_focus(kBarName, visible());
   s.follow(input);
   for (const TuningView::Step step : s.steps) s.tuning.apply_step(step, input, out);
   s.steps.clear();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   s.message_fits = false;
   s.cabin_area = {{0.0, 0.0}, {screen.x, screen.y}};
-  if (s.visible) {
-    const Layout layout = make_layout();
-    s.cabin_area = {{layout.left, 0.0}, {screen.x - layout.right, screen.y - layout.bar}};
-    if (layout.left > 0.0f) s.draw_left(layout, input, out);
-    s.draw_right(layout, input, out);
-    s.draw_bar(layout, input, out);
-  }
+  const PanelView view = s.view;
+  if (view == PanelView::learner) s.draw_learner(input, out);
+  if (view == PanelView::engineer) s.draw_engineer(input, out);
   s.draw_over_cabin(input, out);
   draw_help(s.help, s.bindings);
   return out;
@@ -350,11 +398,18 @@ bool Panel::covers(glm::dvec2 mouse) const {
 bool Panel::has_keyboard() const {
   return panel_has_keyboard();
 }
-bool Panel::visible() const noexcept {
-  return state_->visible;
-}
 void Panel::set_visible(bool on) noexcept {
-  state_->visible = on;
+  state_->view = on ? state_->shown : PanelView::hidden;
+}
+PanelView Panel::view() const noexcept {
+  return state_->view;
+}
+void Panel::set_view(PanelView view) noexcept {
+  state_->view = view;
+  if (view != PanelView::hidden) state_->shown = view;
+}
+void Panel::toggle_lessons() noexcept {
+  state_->lists_lessons = !state_->lists_lessons;
 }
 bool Panel::shows_help() const noexcept {
   return state_->help;

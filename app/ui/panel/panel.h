@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "app/cabin/headset/headset_report.h"
+#include "app/lessons/assessment/lesson.h"
 #include "app/lessons/coach/coach_view.h"
 #include "app/lessons/replay/player.h"
 #include "app/runtime/runtime.h"
@@ -23,6 +24,9 @@ namespace gearshift::ui {
 struct KeyHint {
   std::string action, key;  // "clutch", "A"
 };
+
+// What surrounds the cabin: nothing but the lesson card; what a learner needs; all displays and controls.
+enum class PanelView { hidden, learner, engineer };
 
 // State of a physical stick that is used instead of the simulated lever.
 struct StickView {
@@ -72,6 +76,14 @@ struct PanelInput {
   bool is_unpassable;                   // the current run can no longer be passed
   const cabin::HeadsetReport* headset;  // null: no headset in use
   ControlsView controls{};
+  // What the lesson's present step wants; null: nothing is prompted. `way` [m]: from the lever to the gear in the gate's
+  // plane; empty: no gear is wanted, or it is engaged.
+  const lessons::DriveCondition* wanted = nullptr;
+  int wanted_gear = haptics::kNeutralGear;
+  std::span<const glm::dvec2> way{};
+  std::string_view reply{};    // answer to a key that came too early: "Ignition first: I."; may be empty
+  double held_throttle = 0.0;  // [1] where the keys hold the throttle
+  const vehicle::EngineSpec* engine = nullptr;  // null: no car
 };
 static_assert(std::is_trivially_copyable_v<PanelInput>);
 
@@ -99,13 +111,18 @@ class Panel {
 
   void undo();  // takes effect in the next draw()
   void redo();
-  bool visible() const noexcept;
-  void set_visible(bool on) noexcept;
+  bool visible() const noexcept { return view() != PanelView::hidden; }
+  void set_visible(bool on) noexcept;  // shows the view that was shown last, at first the engineer's
+  PanelView view() const noexcept;
+  void set_view(PanelView view) noexcept;
+  void toggle_lessons() noexcept;  // lessons and history beside the learner's view
   bool shows_help() const noexcept;
   // bindings_text: one binding per line, with a tab between key and action.
   void show_help(bool on, const std::string& bindings_text);
 
   // For tests and scripts, as of the last draw(): the place of a named control, and how many texts did not fit. Names:
+  // Learner's view: "pedal_clutch", "pedal_brake", "pedal_throttle", "gate", "hand_brake", "ignition", "starter",
+  // "lessons", "view", "arm", "disarm", "stop".
   // Bar: "stop", "arm", "disarm", "record", "replay". Left column: "reset_view", "axis_shift", "axis_select".
   // Right column: the lists "car", "gate", "preset" and "hand"; while a list is open, also its entries, for example
   // "gate: NAME"; "tab_lesson", "tab_history", "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset"

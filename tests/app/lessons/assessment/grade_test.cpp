@@ -262,6 +262,25 @@ TEST_CASE("the error of a limb grows with the distance of its own figures") {
   CHECK(pedal_error(result, &norm) == 0.0);
 }
 
+TEST_CASE("what was good is the first that holds, and nothing is praised that went wrong") {
+  LessonResult result = done_with({});
+  result.duration = 20.0;
+  CHECK(what_was_good(result) == "every step, without an error.");
+  result.errors = {make_driving_error(ErrorKind::jerk, Severity::minor, 1.0, 2.0)};
+  CHECK(what_was_good(result) == "the engine kept running.");
+  result.shifts.resize(2);
+  CHECK(what_was_good(result) == "the lever found its gears, without grinding.");
+  result.errors.push_back(make_driving_error(ErrorKind::grind, Severity::severe, 1.0, 2.0));
+  CHECK(what_was_good(result) == "the engine kept running.");
+  result.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 60.0));
+  CHECK(what_was_good(result) == "you finished every step.");
+  result.end = LessonEnd::aborted;
+  CHECK(what_was_good(result).empty());
+  result.errors.clear();
+  result.end = LessonEnd::left;
+  CHECK(what_was_good(result).empty());
+}
+
 TEST_CASE("the thing to mend is the error or the figure that failed the run, whatever else went wrong") {
   Lesson lesson;
   Norm norm;

@@ -146,7 +146,7 @@ TEST_CASE(
   CHECK(History(bench.config.history).learners().size() == 2);  // an empty name adds no learner
 }
 
-TEST_CASE("the lesson set by the instructor takes precedence over the suggestion until a run of it was graded") {
+TEST_CASE("the lesson set by the instructor takes precedence over the suggestion until a run of it was passed") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   Coach coach(bench.config);
@@ -159,7 +159,7 @@ TEST_CASE("the lesson set by the instructor takes precedence over the suggestion
 
   coach.set_help(false);
   bench.trial(coach, "one");
-  CHECK(wanted() == "two");  // only a graded run of "two" removes this choice, but the run was of "one"
+  CHECK(wanted() == "two");  // only a passed run of "two" removes this choice, but the run was of "one"
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
   coach.add(bench_drive(Drive::good, 0.5));
@@ -170,7 +170,17 @@ TEST_CASE("the lesson set by the instructor takes precedence over the suggestion
   coach.add(std::span(drive).first(500));
   coach.leave();
   CHECK(wanted() == "two");  // an unfinished run does not remove the choice
-  bench.trial(coach, "two", Drive::pushed);
+  Lesson strict = bench.config.lessons[1];
+  strict.pass_grade = 10.0;
+  coach.offer(strict);
+  bench.begin(coach);
+  coach.add(bench_drive(Drive::pushed));
+  CHECK(coach.view().phase == LessonPhase::over);
+  CHECK_FALSE(coach.view().result->passed);
+  CHECK(wanted() == "two");  // a failed run does not remove the choice
+  CHECK(coach.view().next == "two");
+  bench.trial(coach, "two");
+  CHECK(coach.view().result->passed);
   CHECK(wanted().empty());
   CHECK_FALSE(coach.view().next_by_instructor);
 

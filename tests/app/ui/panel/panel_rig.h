@@ -68,6 +68,12 @@ struct PanelState {
   bool mouse_moves_lever = false, is_automatic_hand = false, instructor_holds_pedals = false, is_unpassable = false;
   std::optional<cabin::HeadsetReport> headset;
   ui::ControlsView controls;
+  const lessons::DriveCondition* wanted = nullptr;
+  int wanted_gear = haptics::kNeutralGear;
+  std::vector<glm::dvec2> way;
+  std::string reply;
+  double held_throttle = 0.0;
+  const vehicle::EngineSpec* engine = nullptr;
 
   ui::PanelInput view(const haptics::Gate& gate, const haptics::DeviceSpec& device) {
     return {gate,
@@ -103,7 +109,13 @@ struct PanelState {
             instructor_holds_pedals,
             is_unpassable,
             headset ? &*headset : nullptr,
-            controls};
+            controls,
+            wanted,
+            wanted_gear,
+            way,
+            reply,
+            held_throttle,
+            engine};
   }
 };
 
@@ -112,7 +124,7 @@ void find_in(const Asked& asked, std::optional<Command>& found) {
   if constexpr (std::is_same_v<Asked, Command>)
     found = asked;
   else if constexpr (std::is_same_v<Asked, ui::PanelCommand> || std::is_same_v<Asked, ui::HeadsetCommand> ||
-                     std::is_same_v<Asked, ui::ControlsCommand>)
+                     std::is_same_v<Asked, ui::ControlsCommand> || std::is_same_v<Asked, ui::DriveCommand>)
     std::visit([&](const auto& inner) { find_in(inner, found); }, asked);
 }
 
