@@ -46,13 +46,35 @@ double eased_throttle(double pedal, double free, double engine_speed) noexcept {
   return pedal * std::clamp((free - engine_speed) / kFreeBand, 0.0, 1.0);
 }
 
+// What the right foot wants of an engine that is not coupled to the wheels.
+struct Foot {
+  double pedal = 0.0;       // [1]
+  double free = kHeldFree;  // [rad/s] see eased_throttle()
+};
+
+Foot foot_of(const haptics::PedalKeys& keys) noexcept {
+  const double held = keys.throttle ? 1.0 : std::clamp(finite_or_zero(keys.held_throttle), 0.0, 1.0);
+  if (keys.throttle_light && held <= kLightThrottle) return {kLightThrottle, kLightFree};
+  return {held, kHeldFree + kHeldFreeMore * held};
+}
+
 double throttle_of(const haptics::PedalKeys& keys, double engine_speed, bool coupled) noexcept {
-  if (keys.throttle) return 1.0;
-  const double held = std::clamp(finite_or_zero(keys.held_throttle), 0.0, 1.0);
-  const double light = keys.throttle_light ? kLightThrottle : 0.0;
-  if (coupled) return std::max(held, light);
-  return std::max(eased_throttle(held, kHeldFree + kHeldFreeMore * held, engine_speed),
-                  eased_throttle(light, kLightFree, engine_speed));
+  const Foot foot = foot_of(keys);
+  return keys.throttle || coupled ? foot.pedal : eased_throttle(foot.pedal, foot.free, engine_speed);
+}
+
+constexpr double kPulledDown = 65.0;  // [rad/s] below the foot's free speed: the clutch takes all that the engine gives
+constexpr double kMaxPulledDown = 150.0;  // [rad/s] a faster engine is never pulled down too far
+constexpr double kYieldBand = 15.0;       // [rad/s]
+constexpr double kLeastEager = 1e-3;      // [1] avoids a division by 0
+constexpr double kDead = 25.0;            // [rad/s] a slower engine has stalled
+
+// Returns how fast the left foot lets the clutch up in the bite zone [1]: 1 is its usual speed. A foot feels that the
+// engine is pulled down, waits at the bite point, and yields before the engine stalls.
+double eagerness(const haptics::PedalKeys& keys, double engine_speed) noexcept {
+  if (!(engine_speed > kDead)) return 1.0;
+  const double least = std::min(foot_of(keys).free - kPulledDown, kMaxPulledDown);
+  return std::clamp((engine_speed - least) / kYieldBand, -1.0, 1.0);
 }
 
 // Returns the pedal position after `seconds` of motion towards `to`. `time`: duration of the full travel [s].
@@ -67,12 +89,14 @@ PedalTiming slowed(PedalTiming timing, double slow_clutch) noexcept {
 }
 
 // Returns the position of the released clutch pedal after `seconds`: the pedal rises fast, but slowly from the bite
-// point to the point of full capacity, unless the clutch has `gripped`.
-double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch,
-                      bool gripped) noexcept {
+// point to the point of full capacity, unless the clutch has `gripped`. `eager`: see eagerness()
+double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch, bool gripped,
+                      double eager) noexcept {
   const double edges[] = {clutch.bite, clutch.closed, 0.0};
   const double quick = 1.0 / timing.pedal_time, slow = (clutch.bite - clutch.closed) / timing.slip_time;
-  const double speeds[] = {quick, gripped ? quick : slow, quick};
+  const bool is_biting = pedal < clutch.bite && pedal > clutch.closed;
+  if (!gripped && is_biting && eager <= 0.0) return std::min(clutch.bite, pedal - eager * slow * seconds);
+  const double speeds[] = {quick, gripped ? quick : slow * std::max(eager, kLeastEager), quick};
   for (int part = 0; part < 3; ++part) {
     const double step = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
     pedal -= step;
@@ -129,7 +153,8 @@ const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, doub
   if (keys.clutch)
     pedals_.clutch = ramped(pedals_.clutch, 1.0, seconds, time);
   else if (!keys.clutch_hold)
-    pedals_.clutch = release_clutch(pedals_.clutch, seconds, slowed(timing_, keys.slow_clutch), clutch_, coupled);
+    pedals_.clutch = release_clutch(pedals_.clutch, seconds, slowed(timing_, keys.slow_clutch), clutch_, coupled,
+                                    eagerness(keys, engine_speed));
   return pedals_;
 }
 

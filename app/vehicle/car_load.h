@@ -46,7 +46,8 @@ void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 // at a low frame rate. `throttle` presses the throttle to the floor, `throttle_light` by a fifth of the travel, and
 // otherwise it stays at `held_throttle`. These two ease off while the clutch is open or slips and the engine turns faster
 // than this throttle needs to move off. The released clutch pedal rises fast, but slowly in the bite zone until the
-// clutch has gripped in a gear, and stops while `clutch_hold` is held. With `slow_clutch` at 1, it slips for kSlowClutch
+// clutch has gripped in a gear; there it waits while the clutch pulls the engine down, and yields before the engine stalls.
+// It stops while `clutch_hold` is held. With `slow_clutch` at 1, it slips for kSlowClutch
 // times as long: help for a learner who lets the clutch up too fast. The hand brake does not move.
 inline constexpr double kSlowClutch = 1.5;  // [1] engineering value: 6 s instead of 4 s
 class KeyboardPedals {

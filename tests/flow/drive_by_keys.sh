@@ -35,7 +35,7 @@ hill_start() {
   step 2
   tap Prior 1 # Page Up
   step 3
-  tap d 5
+  tap d 6
   sleep 1
   up a
   step 4

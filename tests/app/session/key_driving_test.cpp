@@ -95,7 +95,7 @@ std::string outcome(const KeyDriver& d) {
   return text;
 }
 
-void hill_start(KeyDriver& d) {
+void hill_start_by(KeyDriver& d, double slow) {
   d.down(GLFW_KEY_A);
   REQUIRE(d.see([&] { return d.at_step(1); }));
   d.tap(GLFW_KEY_PAGE_UP);
@@ -104,8 +104,16 @@ void hill_start(KeyDriver& d) {
   REQUIRE(d.see([&] { return d.car().engine_speed > 157.0; }));  // 1500 rpm
   d.up(GLFW_KEY_A);
   REQUIRE(d.see([&] { return d.at_step(3); }));
+  d.pass(slow);
   d.tap(GLFW_KEY_H);
   d.see([&] { return d.is_over(); });
+}
+void hill_start(KeyDriver& d) {
+  hill_start_by(d, 0.0);
+}
+// Looks for the key of the handbrake, while the clutch already holds the car.
+void hesitant_hill_start(KeyDriver& d) {
+  hill_start_by(d, 2.0);
 }
 
 void move_off(KeyDriver& d) {
@@ -162,7 +170,10 @@ TEST_CASE("hill start, stop and go, and reverse are passed by keys, alike at 5, 
   const struct {
     const char* lesson;
     void (*drive)(KeyDriver&);
-  } kDrives[] = {{"hill_start", hill_start}, {"stop_and_go", stop_and_go}, {"reverse", reverse}};
+  } kDrives[] = {{"hill_start", hill_start},
+                 {"hill_start", hesitant_hill_start},
+                 {"stop_and_go", stop_and_go},
+                 {"reverse", reverse}};
   for (const auto& [lesson, drive] : kDrives)
     for (const double rate : {5.0, 10.0, 30.0, 144.0}) {
       CAPTURE(lesson);

@@ -152,3 +152,25 @@ TEST_CASE("a pedal of the car is where the axis or the key has put it, whichever
   CHECK(untouched.move_pedals(both, {}, 0.1).throttle == both.throttle);  // as in a replay
   CHECK(untouched.move_pedals(axes, {}, 0.1).clutch == 0.0);
 }
+
+TEST_CASE(
+    "the foot waits at the bite point while the clutch pulls the engine down, and yields before the engine stalls") {
+  KeyboardPedals feet(kPace, kClutch);
+  // [1] The pedal 0.1 s later, from the middle of the bite zone, which takes 1.2 s for 0.6 of the travel.
+  const auto later = [&](double held, double engine_speed) {
+    feet.place({.clutch = 0.5});
+    return feet.move({.held_throttle = held}, 0.1, engine_speed, false).clutch;
+  };
+  CHECK(later(0.5, 200.0) == doctest::Approx(0.45));   // free
+  CHECK(later(0.5, 137.5) == doctest::Approx(0.475));  // 195 - 65 = 130 rad/s is the least; half of the 15 rad/s above
+  CHECK(later(0.5, 130.0) == doctest::Approx(0.5));
+  CHECK(later(0.5, 115.0) == doctest::Approx(0.55));  // yields as fast as it rises
+  CHECK(later(0.5, 90.0) == doctest::Approx(0.55));
+  CHECK(later(0.0, 84.0) == doctest::Approx(0.45));  // without throttle an idling engine is not pulled down
+  CHECK(later(0.0, 50.0) == doctest::Approx(0.55));
+  CHECK(later(0.5, 10.0) == doctest::Approx(0.45));   // stalled: nothing is left to feel
+  CHECK(later(1.0, 165.0) == doctest::Approx(0.45));  // never waits above 150 rad/s
+  feet.place({.clutch = 0.79});
+  CHECK(feet.move({.held_throttle = 0.5}, 1.0, 90.0, false).clutch ==
+        doctest::Approx(0.8));  // at most to the bite point
+}
