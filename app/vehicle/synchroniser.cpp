@@ -12,12 +12,16 @@
 namespace gearshift::vehicle {
 namespace {
 
-// Values of SleeveStations: fractions of the way from the detent's crest to the depth at which the gear counts as
-// engaged.
-constexpr double kBlock = 0.20;
-constexpr double kOut = 0.35;
-constexpr double kDogs = 0.45;
-constexpr double kHome = 0.95;
+// Stations as fractions of a way. The ring of an H gate blocks at a third of the lever's whole way from neutral to the
+// gear, as in real cars. No source was found for the other stations. The dogs are close behind the ring, so that the
+// speeds cannot drift apart on the way from ring to dogs.
+struct StationFractions {
+  double block, out, dogs, home;
+};
+constexpr StationFractions kFromMouth{0.10, 0.20, 0.24, 0.50};  // of the way from the end of the mouth to rest
+// Of the way from the detent's crest to the depth at which the gear counts. The drum of a sequential gate turns a new
+// sleeve in only behind the crest; a place of a mechanism has no mouth.
+constexpr StationFractions kFromCrest{0.20, 0.35, 0.45, 0.95};
 
 constexpr double kContactTolerance = 1e-6;  // [m] a lever closer than this to a wall counts as touching it
 constexpr double kStrutForce = 80.0;        // [N] force of the spring struts on the ring while the sleeve passes
@@ -52,10 +56,13 @@ double draw(std::uint64_t& state) noexcept {
 
 }  // namespace
 
-SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept {
-  const double length = slot.engage_depth - slot.release_depth;
-  const auto at = [&](double fraction) { return slot.release_depth + fraction * length; };
-  return {slot.release_depth, at(kBlock), at(kOut), at(kDogs), at(kHome)};
+SleeveStations sleeve_stations(const haptics::Gate& gate, const haptics::Slot& slot) noexcept {
+  const bool has_mouth = !haptics::is_sequential(gate) && !haptics::is_mechanism(gate);
+  const StationFractions& fraction = has_mouth ? kFromMouth : kFromCrest;
+  const double index = has_mouth ? gate.half_aisle + gate.chamfer : slot.release_depth;
+  const double length = (has_mouth ? slot.rest : slot.engage_depth) - index;
+  return {index, index + fraction.block * length, index + fraction.out * length, index + fraction.dogs * length,
+          index + fraction.home * length};
 }
 
 // Cone torque divided by the force F on the sleeve. The torque of n cones is (n F mu R) / sin a, with friction mu,
@@ -106,7 +113,7 @@ SleeveOutput Synchroniser::step(const SleeveInput& in, double period) noexcept {
 void Synchroniser::enter_slot(int slot) noexcept {
   slot_ = slot;
   if (!is_meshed()) meshed_ = haptics::kNeutralGear;
-  at_ = slot != haptics::kNoSlot ? sleeve_stations(haptics::slot_of(gate_, slot)) : SleeveStations{};
+  at_ = slot != haptics::kNoSlot ? sleeve_stations(gate_, haptics::slot_of(gate_, slot)) : SleeveStations{};
   has_passed_ring_ = false;
   peak_push_ = bump_ = held_depth_ = 0.0;
 }
@@ -120,7 +127,7 @@ void Synchroniser::update_mesh(const SleeveInput& in) noexcept {
   }
   if (in.depth < at_.block) has_passed_ring_ = false;
   if (in.depth > at_.block + kContactTolerance && !ring_blocks(in)) has_passed_ring_ = true;
-  peak_push_ = in.depth < at_.crest ? 0.0 : std::max(peak_push_, push_);
+  peak_push_ = in.depth < at_.index ? 0.0 : std::max(peak_push_, push_);
   if (!is_meshed() && in.depth >= at_.dogs - kContactTolerance && speeds_match(in)) mesh(in.depth);
 }
 
@@ -164,7 +171,7 @@ bool Synchroniser::dogs_clash(const SleeveInput& in) const noexcept {
 }
 
 SyncPhase Synchroniser::phase(const SleeveInput& in) const noexcept {
-  if (slot_ == haptics::kNoSlot || in.depth < at_.crest) return SyncPhase::free;
+  if (slot_ == haptics::kNoSlot || in.depth < at_.index) return SyncPhase::free;
   if (is_meshed()) return bump_ > 0.0 ? SyncPhase::second_bump : SyncPhase::meshed;
   if (dogs_clash(in)) return SyncPhase::clashing;
   if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear) return SyncPhase::free;
@@ -178,13 +185,12 @@ double Synchroniser::sleeve_force(double push) const noexcept {
   return std::max(0.0, push) / scale_ * synchro_.lever_ratio * synchro_.efficiency;
 }
 
-// The cone torque is proportional to the push. It fades in smoothly between the detent and the depth at which the ring
-// blocks. While the sleeve moves through the ring, the spring struts press on the ring with enough force to hold the
+// The cone torque is proportional to the push. It fades in smoothly from the mouth to the depth at which the ring blocks. While the sleeve moves through the ring, the spring struts press on the ring with enough force to hold the
 // shaft's speed against oil drag.
 double Synchroniser::cone_torque(const SleeveInput& in) const noexcept {
-  if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear || in.depth < at_.crest) return 0.0;
+  if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear || in.depth < at_.index) return 0.0;
   if (has_passed_ring_) return cone_gain_ * kStrutForce;
-  return cone_gain_ * sleeve_force(in.push) * smooth_step((in.depth - at_.crest) / (at_.block - at_.crest));
+  return cone_gain_ * sleeve_force(in.push) * smooth_step((in.depth - at_.index) / (at_.block - at_.index));
 }
 
 // Torque of clashing dogs, which rub until their speeds match. So with the clutch down, even reverse or a gear with a
@@ -208,7 +214,7 @@ void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveO
   out.torque_locked = lock > scale_ * kMaxHandForce;
   held_depth_ = std::max(held_depth_, in.depth);
   const double beyond = -(in.push + in.feel) - lock;
-  if (beyond > 0.0 && !out.torque_locked) held_depth_ -= period * beyond / kDrawOutDamping;
+  if (beyond > 0.0 && !out.torque_locked) held_depth_ = std::max(0.0, held_depth_ - period * beyond / kDrawOutDamping);
   if (lock < kMinLockForce) held_depth_ = in.depth;
   out.depth_min = lock < kMinLockForce ? 0.0 : held_depth_;
 }

@@ -1,8 +1,8 @@
 // One synchroniser: everything between the lever in a slot and the dogs of that slot's gear.
 //
-//     crest     block   out  dogs            home engage      depth of the lever, see SleeveStations
-//   ----+---------+------+----+----------------+----+---->
-//       | ring    |           | dogs engaged     |    the gear counts as engaged
+//     index     block   out  dogs  home                engage   depth of the lever, see SleeveStations
+//   ----+---------+------+----+-----+------------------+---->
+//       | ring    |           | dogs engaged           | the gear counts as engaged
 //       | indexes | the ring blocks while the speeds differ: a wall
 //
 // The synchroniser never sets the lever's position. It returns walls (limits of depth) and two small forces along the
@@ -24,13 +24,13 @@ inline constexpr double kMaxHandForce = 60.0;
 
 // Depths in a slot [m], in increasing order.
 struct SleeveStations {
-  double crest = 0.0;  // past the detent
+  double index = 0.0;  // the ring begins to press on the cone
   double block = 0.0;  // the sleeve's teeth meet the ring's teeth
   double out = 0.0;    // on the way out, the dogs disengage here
   double dogs = 0.0;   // the sleeve's teeth meet the dogs: they engage or clash
   double home = 0.0;   // the second bump ends here
 };
-SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept;
+SleeveStations sleeve_stations(const haptics::Gate& gate, const haptics::Slot& slot) noexcept;
 
 // Torque of the cone divided by the force on the sleeve [m].
 double cone_gain(const SynchroSpec& synchro) noexcept;

@@ -70,7 +70,7 @@ rm data/gearshift/recordings
 json() { python3 -c "import json; d = json.load(open('json.txt')); runs = d['runs']; run = runs[-1]; assert $1, run"; }
 check "JSON" learn json skip_shifts --json
 check "has grade and verdict" json "run['verdict'] == 'passed' and run['grade'] >= 6 and d['car'] == 'hatchback'"
-check "figures with norms" json "len(run['figures']) == 7 and all(f['norm']['up_to'] > f['norm']['typical'] for f in run['figures'])"
+check "figures with norms" json "len(run['figures']) == 8 and all(f['norm']['up_to'] > f['norm']['typical'] for f in run['figures'])"
 check "and the help of each limb" json "run['lever_help'] == run['pedal_help'] == 0"
 check "a failed lesson exits with 1" exits 1 learn json hill_start --fault rollback --json --runs 2
 check "its error has severity, time, value and unit" json "len(runs) == 2 and any(e['kind'] == 'rollback' and
@@ -78,6 +78,9 @@ check "its error has severity, time, value and unit" json "len(runs) == 2 and an
 learn json up_through_the_gears --learner Dump --database dump.db --runs 6 --guided --fault clutch_dump --json
 check "who dumps the clutch gets help with the pedals, not with the lever" json "all(r['lever_help'] == 0 for r in runs) and \
   max(r['pedal_help'] for r in runs) > 0.3"
+learn json up_through_the_gears --learner Push --database push.db --runs 6 --guided --fault wrong_column --json
+check "who strays into wrong slots gets help with the lever, not with the pedals" json "all(r['pedal_help'] == 0 for r in runs) and \
+  max(r['lever_help'] for r in runs) > 0.05"
 check "a guided lesson has no grade" exits 1 learn json hill_start --guidance 0.5 --json
 check "and says by how much it was guided" json "run['verdict'] == 'not graded' and 'grade' not in run and run['lever_help'] == 0.5 and run['pedal_help'] == 0"
 

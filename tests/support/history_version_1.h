@@ -27,6 +27,7 @@ inline constexpr const char* kToHistoryVersion1 =
     "ALTER TABLE lesson_run DROP COLUMN clutch_lag_error_s;"
     "ALTER TABLE lesson_run DROP COLUMN path_efficiency;"
     "ALTER TABLE lesson_run DROP COLUMN impulse_n_s;"
+    "ALTER TABLE lesson_run DROP COLUMN pedal_corrections_per_s;"
     "ALTER TABLE lesson_run DROP COLUMN graded_by;"
     "ALTER TABLE lesson_run DROP COLUMN score;"
     "ALTER TABLE lesson_run DROP COLUMN car;"

@@ -53,6 +53,7 @@ struct RunFigures {
   std::optional<double> clutch_lag_error;   // [s] the same of clutch_lag
   std::optional<double> path_efficiency;    // [1] geometric mean over the shifts
   std::optional<double> impulse;            // [N s] geometric mean over the shifts
+  std::optional<double> pedal_corrections;  // [1/s] PedalCorrections::rate()
 };
 
 // A figure that norms compare. Less is better in every figure.
@@ -84,6 +85,8 @@ inline constexpr RunFigure kRunFigures[] = {
      "Move the lever straight through neutral, and let its springs guide it."},
     {&RunFigures::impulse, true, "impulse_n_s", "Push per shift", " N s", 1.0, 1, kMinImpulse,
      "Push the lever lightly, and wait until the gear goes in."},
+    {&RunFigures::pedal_corrections, false, "pedal_corrections_per_s", "Small pedal corrections", " %/s", 100.0, 0,
+     0.01, "Rest your heel on the floor, and move each pedal in one steady stroke."},
 };
 
 constexpr void each_field(FieldsOf<RunFigures> auto&& figures, auto&& visit) {

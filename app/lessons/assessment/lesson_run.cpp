@@ -12,6 +12,7 @@
 #include "app/lessons/assessment/error_detector.h"
 #include "app/lessons/assessment/grade.h"
 #include "app/lessons/assessment/lever_path_text.h"
+#include "app/lessons/assessment/pedal_corrections.h"
 #include "app/lessons/assessment/shift_meter.h"
 
 namespace gearshift::lessons {
@@ -97,6 +98,7 @@ struct LessonRun::State {
   void begin(const vehicle::DriveSample& sample);
   void measure(const vehicle::DriveSample& sample);
   void measure_jerk(const vehicle::DriveSample& sample);
+  void measure_feet(const vehicle::DriveSample& sample);
   void add_shift(const std::optional<ShiftRecord>& ended);
   void apply_errors(std::vector<DrivingError> errors);
   void attribute(DrivingError& error) const;
@@ -118,6 +120,7 @@ struct LessonRun::State {
   Lesson lesson;
   haptics::Gate gate;
   LessonRunConfig config;
+  PedalCorrections corrections;
   ShiftMeter meter;
   ErrorDetector detector;
   HeldCondition held;
@@ -186,7 +189,13 @@ void LessonRun::State::begin(const vehicle::DriveSample& sample) {
   start_slip = sample.car.slip_energy;
 }
 
+void LessonRun::State::measure_feet(const vehicle::DriveSample& sample) {
+  corrections.add(sample.car.pedals, sample.time() - (result.begin + result.duration));
+  result.figures.pedal_corrections = corrections.rate();
+}
+
 void LessonRun::State::measure(const vehicle::DriveSample& sample) {
+  measure_feet(sample);
   result.duration = sample.time() - result.begin;
   result.slip_energy = sample.car.slip_energy - start_slip;
   result.lever_help = std::max(result.lever_help, sample.controls.guidance);

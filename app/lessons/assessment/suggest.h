@@ -40,7 +40,7 @@ struct Suggestion {
 
 // The shipped lessons in teaching order. Starting and stopping come before the first shift, as in the driving course by
 // Carnetsoft.
-inline constexpr std::array<std::string_view, 25> kTeachingOrder{"start_and_stop",
+inline constexpr std::array<std::string_view, 26> kTeachingOrder{"start_and_stop",
                                                                  "bite_point",
                                                                  "moving_off",
                                                                  "stop_and_go",
@@ -63,6 +63,7 @@ inline constexpr std::array<std::string_view, 25> kTeachingOrder{"start_and_stop
                                                                  "skip_shifts",
                                                                  "eco_driving",
                                                                  "rev_matching",
+                                                                 "heel_and_toe",
                                                                  "another_gate",
                                                                  "six_speed"};
 

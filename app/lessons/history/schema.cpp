@@ -135,7 +135,9 @@ std::array<std::string, kSchemaVersion - 1> upgrades() {
               "INSERT INTO unsent (kind, row) SELECT 'session', id FROM session;"
               "INSERT INTO unsent (kind, row) SELECT 'lesson_run', id FROM lesson_run;"
               "INSERT INTO unsent (kind, row) SELECT 'comment', id FROM comment;" +
-              triggers()};
+              triggers(),
+          // Version 5: steadiness of the feet.
+          "ALTER TABLE lesson_run ADD COLUMN pedal_corrections_per_s REAL;"};
 }
 
 }  // namespace gearshift::lessons

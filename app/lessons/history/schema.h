@@ -11,7 +11,7 @@ namespace gearshift::lessons {
 inline constexpr int kApplicationId = 0x47534c48;     // "GSLH"
 inline constexpr int kOldApplicationId = 0x47534849;  // "GSHI": written until 0.1.0, no longer read
 
-inline constexpr int kSchemaVersion = 4;
+inline constexpr int kSchemaVersion = 5;
 
 // The words of an SQL dialect that the tables of learners need.
 struct SqlDialect {

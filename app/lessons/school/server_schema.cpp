@@ -281,6 +281,7 @@ std::string server_script() {
   return fmt::format(
       "BEGIN; {} CREATE SCHEMA IF NOT EXISTS gearshift; SET LOCAL search_path = gearshift;\n"
       "DO $make$ BEGIN IF to_regclass('gearshift.school') IS NULL THEN {} {} END IF; END $make$;\n"
+      "ALTER TABLE lesson_run ADD COLUMN IF NOT EXISTS pedal_corrections_per_s double precision;\n"
       "{}\nUPDATE school SET version = {};\n{} COMMIT;",
       kRoles, learner_tables(kPostgres), kTables, functions(), kServerVersion, kGrants);
 }

@@ -10,7 +10,7 @@
 
 namespace gearshift::lessons {
 
-inline constexpr int kServerVersion = 1;  // of tables and functions
+inline constexpr int kServerVersion = 2;  // of tables and functions
 
 // Creates what is missing: schema, roles, tables, functions and grants. One transaction. Must run as the future owner, who
 // may create roles.

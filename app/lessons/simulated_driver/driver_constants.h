@@ -30,6 +30,7 @@ inline constexpr double kIdleDrop = 6.0;             // [rad/s] drop of idle spe
 inline constexpr double kAccelerateThrottle = 0.50;  // [1] throttle
 inline constexpr double kCruiseThrottle = 0.20;      // [1]
 inline constexpr double kSlowBrake = 0.2;            // [1]
+inline constexpr double kHeelBrake = 0.12;           // [1] brake while the heel blips
 inline constexpr double kStopBrake = 0.3;            // [1]
 inline constexpr double kHandLead = 0.06;            // [s] from clutch down to the start of the hand's movement
 inline constexpr double kClutchLag = 0.06;           // [s] from gear engaged to clutch up
@@ -37,7 +38,7 @@ inline constexpr double kClutchLag = 0.06;           // [s] from gear engaged to
 // not engaged yet.
 inline constexpr double kMaxClutchLead = 0.06;
 inline constexpr double kKnobReleaseTime = 0.15;  // [s] from gear engaged to the hand releasing the knob
-inline constexpr double kShaftRestTime = 2.0;     // [s] wait with the clutch down before engaging reverse
+inline constexpr double kShaftRestTime = 3.0;     // [s] wait with the clutch down before engaging reverse
 inline constexpr double kStuckTime = 1.2;         // [s] time of pushing without effect before a new attempt
 inline constexpr double kBesideSlotTime = 0.2;  // [s] time of pushing beside a slot before retrying, plus reaction time
 inline constexpr double kSyncPatience = 4.0;    // [s] time of pushing on a blocking synchroniser before a new attempt
@@ -52,8 +53,6 @@ inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
 inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] lowest speed for the deliberate error `blocked`
 // [m/s] Lowest speed for the deliberate errors `coasting` and `too_slow`: the car still rolls after some seconds.
 inline constexpr double kMinCoastingSpeed = 5.0;
-// [1] In a missed shift, the stroke ends at this fraction of the way from detent to gear, before the synchroniser ring.
-inline constexpr double kRingFraction = 0.12;
 inline constexpr double kStrokeDelay = 0.06;     // [s] duration of a stroke, in addition to distance divided by pace
 inline constexpr double kMouthDepth = 0.006;     // [m] depth of a stroke into a wrong slot
 inline constexpr double kMouthStrokeTime = 0.2;  // [s] duration of the last stroke into a wrong slot

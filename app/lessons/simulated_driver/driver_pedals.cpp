@@ -59,7 +59,7 @@ void SimulatedDriver::drive(const vehicle::DriveSample& now) {
 }
 
 void SimulatedDriver::drive_on(const vehicle::DriveSample& now) {
-  feet_.brake.move_to(0.0, kBrakeRate);
+  if (!intent().brake) feet_.brake.move_to(0.0, kBrakeRate);
   const double rides = errors_.of(ErrorKind::riding_clutch);
   const double rest =
       rides > 0.0 && now.car.road_speed > kMinRollingSpeed ? kRestingPedal + kRestingPedalGain * rides : 0.0;

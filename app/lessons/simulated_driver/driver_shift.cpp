@@ -5,6 +5,7 @@
 
 #include "app/lessons/simulated_driver/driver_constants.h"
 #include "app/lessons/simulated_driver/simulated_driver.h"
+#include "app/vehicle/synchroniser.h"
 #include "haptics/loop/shift_script.h"
 
 namespace gearshift::lessons {
@@ -219,7 +220,7 @@ void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
     hand_.set_extra(
         {0.0, (kBaseOverPush + kOverPushGain * errors_.of(ErrorKind::over_push)) * side_of(gate_, shift_.gear)});
   const double time_waiting = hand_.time_waiting(time);
-  const bool at_ring = shift_.detour == Detour::missed && hand_.is_at_end(time) && is_behind_detent(now);
+  const bool at_ring = shift_.detour == Detour::missed && hand_.is_at_end(time) && in_slot;
   const bool tired = shift_.detour == Detour::blocked && hand_.is_at_end(time) && time_waiting > 2.0;
   const bool no_use = !shift_.uses_clutch && !shift_.between_gears && time_waiting > 0.5;
   if (at_ring || tired || no_use) return draw_back(now);
@@ -229,11 +230,6 @@ void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
     if (!shift_.uses_clutch) return draw_back(now);
     reach(now, shift_.gear);
   }
-}
-
-bool SimulatedDriver::is_behind_detent(const vehicle::DriveSample& now) const noexcept {
-  if (now.lever.slot == haptics::kNoSlot) return false;
-  return std::abs(now.lever.proxy.y) >= haptics::slot_of(gate_, now.lever.slot).release_depth;
 }
 
 // Starts moving the hand from the lever's position to the gear.
@@ -248,8 +244,8 @@ void SimulatedDriver::reach(const vehicle::DriveSample& now, int gear) {
   strokes.insert(strokes.end(), to_gear.begin(), to_gear.end());
   if (shift_.detour == Detour::missed && gear != haptics::kNeutralGear) {
     const haptics::Slot& slot = haptics::slot_of(gate_, haptics::slot_of_gear(gate_, gear));
-    const double depth = slot.release_depth + kRingFraction * (slot.engage_depth - slot.release_depth);
-    strokes.back().to.y = side_of(gate_, gear) * depth;
+    const vehicle::SleeveStations sleeve = vehicle::sleeve_stations(gate_, slot);
+    strokes.back().to.y = side_of(gate_, gear) * 0.5 * (sleeve.index + sleeve.block);  // before the ring
   }
   for (haptics::HandStroke& stroke : strokes) stroke.to += glm::dvec2{noise(skill_.aim_noise), noise(skill_.aim_noise)};
   hand_.start(std::move(strokes), from, now.time());

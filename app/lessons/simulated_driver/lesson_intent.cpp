@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/lessons/simulated_driver/driver_constants.h"
+
 namespace gearshift::lessons {
 namespace {
 
@@ -9,6 +11,8 @@ constexpr double kMaxStopTarget = 0.4;  // [m/s] a step with a target speed belo
 constexpr double kWalkingSpeed = 1.3;   // [m/s]
 
 Motion motion_of(const DriveCondition& c) {
+  if (c.brake_above && c.clutch_above) return Motion::stay;  // begin a shift while braking
+  if (c.brake_above && c.engine_above) return Motion::go;    // end it with a blip
   if (c.brake_above && (c.clutch_torque_above || c.clutch_below)) return Motion::bite;
   if (c.brake_above) return Motion::slow;
   if (c.speed_below && *c.speed_below < kMaxStopTarget) return c.brake_below ? Motion::hold : Motion::stop;
@@ -34,14 +38,16 @@ LessonIntent intent_of(const Lesson& lesson, std::size_t step) {
   LessonIntent intent;
   intent.motion = motion_of(c);
   intent.speed = creep_speed(c);
-  intent.no_throttle = c.throttle_below || (intent.motion == Motion::bite && c.brake_above);
+  intent.no_throttle = c.throttle_below || (intent.motion != Motion::slow && c.brake_above);
   intent.clutch_down = c.clutch_above && intent.motion == Motion::stay;
   intent.blip = c.engine_above && c.clutch_locked == true && c.gear;
   intent.accelerates =
       intent.motion == Motion::go && !intent.blip &&
       (c.engine_above || c.shift_light == true || c.distance_above || (c.speed_above && *c.speed_above > 0.0));
   intent.at_once = lesson.steps[step].call && intent.motion == Motion::stop;
-  if (c.brake_above || intent.at_once) intent.brake = 1.0;
+  const bool is_rolling = c.speed_below || c.clutch_above || c.engine_above;
+  if (c.brake_above) intent.brake = is_rolling ? kHeelBrake : 1.0;
+  if (intent.at_once) intent.brake = 1.0;
   if (c.hand_brake_above) intent.hand_brake = 1.0;
   if (c.hand_brake_below) intent.hand_brake = 0.0;
   intent.ignition = c.ignition;

@@ -92,7 +92,6 @@ class SimulatedDriver {
   std::vector<haptics::HandStroke> strokes_into_mouth(glm::dvec2 from, int old_gear, int gear) const;
   void draw_back(const vehicle::DriveSample& now);
   bool waits_for_shaft(const vehicle::DriveSample& now) const noexcept;
-  bool is_behind_detent(const vehicle::DriveSample& now) const noexcept;
   bool has_arrived(const vehicle::DriveSample& now) const noexcept;
   void end_shift(const vehicle::DriveSample& now);
   void rest_hand(const vehicle::DriveSample& now);

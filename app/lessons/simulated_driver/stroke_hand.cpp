@@ -15,7 +15,7 @@ namespace {
 // Engineering values. kRelaxationTime is half of the value in ScriptedHand. With a longer time, the effort that pulls
 // the lever out of a gear would push it on into the opposite slot.
 constexpr double kEffortGain = 4000.0;       // [N/(m s)]
-constexpr double kMaxEffort = 28.0;          // [N]
+constexpr double kMaxPush = 30.0;            // [N] of the grip's spring and the effort: the motors can hold as much
 constexpr double kArrivalTolerance = 0.001;  // [m]
 constexpr double kRelaxationTime = 0.025;    // [s]
 constexpr double kMaxCornerCut = 0.005;      // [m] the hand may cut a corner by this distance: half a slot's width
@@ -90,7 +90,8 @@ glm::dvec2 StrokeHand::effort(glm::dvec2 lag) noexcept {
     const bool behind = std::abs(lag[axis]) > kArrivalTolerance;
     if (!behind || lag[axis] * effort_[axis] < 0.0) effort_[axis] *= effort_decay_;
     if (behind) effort_[axis] += kEffortGain * lag[axis] * period_;
-    effort_[axis] = std::clamp(effort_[axis], -kMaxEffort, kMaxEffort);
+    const double limit = std::max(0.0, kMaxPush - haptics::kGripHand.stiffness * std::abs(lag[axis]));
+    effort_[axis] = std::clamp(effort_[axis], -limit, limit);
   }
   return effort_;
 }

@@ -49,7 +49,7 @@ struct CarDrive {
 };
 
 SleeveStations stations_of(const Gate& gate, int gear) {
-  return sleeve_stations(slot_of(gate, slot_of_gear(gate, gear)));
+  return sleeve_stations(gate, slot_of(gate, slot_of_gear(gate, gear)));
 }
 
 double direction_of(const Gate& gate, int gear) {
@@ -69,6 +69,47 @@ SimulatedRunConfig before_slot(const Gate& gate, int gear) {
   config.lever.hand = kBareHand;
   config.start = {rest_position(gate, gear).x, 0.0};
   return config;
+}
+
+// A car that nothing but the cone slows down.
+CarSpec rolling_freely(CarSpec car) {
+  car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
+  return car;
+}
+
+// At the knob of the real car.
+struct KnobForces {
+  double ring = 0.0, bump = 0.0, end = 0.0;  // [N] largest push while the ring blocks, in the second bump, in gear
+  double impulse = 0.0, blocked = 0.0;       // [N s], [s] while the ring blocks
+  double difference = 0.0;                   // [rad/s] of the speeds when the lever reaches the ring
+  double depth = 0.0;                        // [m] at which the ring blocks
+};
+
+// A shift at 2500 rpm with the clutch down, by a hand of the practised simulated driver's pace.
+KnobForces shift_briskly(const CarSpec& car, const Gate& gate, int from, int to) {
+  ShiftStyle style;
+  style.pace = 0.35;
+  style.reaction = 0.06;
+  style.dwell_gear = 3.0;
+  ScriptedHand hand = shifting_hand(gate, from, {to}, 0.2, style);
+  CarRun run(car, rolling_in(car, from, 2500.0 * kRpm), hand, [](double) { return clutch_down(); });
+  KnobForces felt;
+  while (run.time() < hand.duration()) {
+    const HapticSnapshot& lever = run.step();
+    const VehicleState& now = run.state();
+    const double push = std::abs(lever.f_h.y) / now.force_scale;
+    if (now.sync == SyncPhase::synchronising) {
+      if (felt.blocked == 0.0) felt.difference = std::abs(now.dog_difference);
+      felt.ring = std::max(felt.ring, push);
+      felt.impulse += 0.001 * push;
+      felt.blocked += 0.001;
+      felt.depth = std::abs(lever.proxy.y);
+    }
+    if (now.sync == SyncPhase::second_bump) felt.bump = std::max(felt.bump, push);
+    if (now.sync == SyncPhase::meshed && now.gear == to) felt.end = std::max(felt.end, push);
+  }
+  REQUIRE(run.state().gear == to);
+  return felt;
 }
 
 // A lever whose force sensor can be switched off.
@@ -107,7 +148,7 @@ double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
   ShiftStyle style;
   style.dwell_gear = 1.2;
   const int gears[] = {3, 2, 1};
-  ScriptedHand hand(touring_hand(start), shift_strokes(gate, start, gears, style), period_s(haptics));
+  ScriptedHand hand(measured_hand(start), shift_strokes(gate, start, gears, style), period_s(haptics));
   Lever lever(config, haptics, hand, measures);
   lever.place(start);
   CarLoad load(car, gate, kPaperForce, rolling_in(car, 2, 250.0));
@@ -141,7 +182,7 @@ TEST_CASE(
         CAPTURE(from);
         CAPTURE(to);
         ++shifts;
-        ScriptedHand hand = shifting_hand(gate, from, {to}, 0.2, 1.0);
+        ScriptedHand hand = shifting_hand(gate, from, {to}, 0.2, 2.0);
         CarRun run(car, rolling_in(car, from, shaft), hand,
                    [](double time) { return time > 0.1 ? clutch_down() : clutch_up(0.2); });
         CarDrive drive;
@@ -151,11 +192,11 @@ TEST_CASE(
         CHECK(run.state().sync == SyncPhase::meshed);
         CHECK(drive.ground == 0.0);
         CHECK(drive.blocked > 0.005);
-        CHECK(drive.blocked < 0.9);
+        CHECK(drive.blocked < 2.0);  // the diesel from second to first at 1900 rpm
         CHECK(run.state().shaft_speed ==
               doctest::Approx(shaft_per_road(car, to) * run.state().road_speed).epsilon(1e-9));
         CHECK(run.load.driveline().fallbacks() == 0);
-        CHECK(run.load.driveline().energy().mesh < 0.1);
+        CHECK(run.load.driveline().energy().mesh < 0.2);
       }
     }
     CHECK(shifts >= 15);
@@ -374,7 +415,7 @@ TEST_CASE("reverse is locked out by the gate at 30 km/h, blocked by its dogs at 
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   const auto drive_at = [&](double speed, double wait, CarDrive& drive) {
-    ScriptedHand hand = shifting_hand(gate, kNeutralGear, {kReverseGear}, wait, 0.3);
+    ScriptedHand hand = shifting_hand(gate, kNeutralGear, {kReverseGear}, wait, 2.0);
     CarStart start;
     start.road_speed = speed;
     CarRun run(car, start, hand, [](double) { return clutch_down(); });
@@ -384,11 +425,11 @@ TEST_CASE("reverse is locked out by the gate at 30 km/h, blocked by its dogs at 
   const double dogs = stations_of(gate, kReverseGear).dogs;
   CarDrive fast, walking, resting, hasty;
   CHECK(drive_at(30.0 / 3.6, 2.0, fast) == kNeutralGear);
-  CHECK(fast.deepest < stations_of(gate, kReverseGear).crest);
+  CHECK(fast.deepest <= stations_of(gate, kReverseGear).index);
   CHECK(drive_at(2.0, 2.0, walking) == kNeutralGear);
   CHECK(walking.deepest == doctest::Approx(dogs));
   CHECK(walking.ground > 0.2);
-  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // after a wait of 2 s the shaft has stopped
+  CHECK(drive_at(0.0, 3.0, resting) == kReverseGear);  // after a wait of 3 s the shaft has stopped
   CHECK(resting.ground == 0.0);
   // After a wait of 0.1 s the shaft still turns, and the dogs grind until it stops.
   CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);
@@ -513,9 +554,43 @@ TEST_CASE(
   const CarSpec car = shipped_car("hatchback");
   const double usual = blocked_time(car, 1000.0, 0, true);
   CHECK(usual > 0.5);
-  CHECK(usual < 1.2);
+  CHECK(usual < 2.0);
   for (const double rate : {1000.0, 4000.0})
     for (const int delay : {0, 1})
       for (const bool measures : {false, true})
         CHECK(blocked_time(car, rate, delay, measures) == doctest::Approx(usual).epsilon(0.03));
+}
+
+// In a real car the ring blocks near a third of the way, with 40 to 120 N at the knob. The hand's push is free, but not its
+// integral until the speeds match, which the cone turns into the shaft's momentum:
+//   i (dw - dw_dogs) = (1/J + G^2/m) r e mu R / (sin(a) i) x integral of F dt + T_drag t / J
+TEST_CASE(
+    "every shift of a practised hand is felt: 40 to 120 N at the ring, a third of the way in, less at the end stop") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = rolling_freely(shipped_car(name));
+    const Gate gate = gate_of(car);
+    const SynchroSpec& ring = car.synchro;
+    const double gain =
+        ring.lever_ratio * ring.efficiency * ring.cones * ring.friction * ring.radius / std::sin(ring.cone_angle);
+    const int top = car.gearbox.ratio[5] > 0.0 ? 6 : 5;
+    for (const int step : {1, -1}) {
+      for (int from = step > 0 ? 1 : 2; from <= (step > 0 ? top - 1 : top); ++from) {
+        CAPTURE(name);
+        CAPTURE(from);
+        CAPTURE(step);
+        const KnobForces felt = shift_briskly(car, gate, from, from + step);
+        const double ratio = ratio_of(car, from + step), per_road = shaft_per_road(car, from + step);
+        const double shaft = car.clutch.disc_inertia, mass = car.body.mass + car.body.rotating;
+        const double per_impulse = (1.0 / shaft + per_road * per_road / mass) * gain / ratio;
+        const double drag = step * car.gearbox.drag * felt.blocked / shaft;
+        const double change = per_impulse * felt.impulse + drag - ratio * (felt.difference - ring.dog_speed);
+        CHECK(std::abs(change) < 2.5 * 0.001 * per_impulse * felt.ring);  // the push is up to 2.5 cycles old
+        CHECK(felt.ring > 40.0 - 0.8);  // the sensor has steps of 0.8 N of the real car
+        CHECK(felt.ring < 120.0);
+        CHECK(felt.end < felt.ring);
+        CHECK(felt.bump < felt.ring);
+        CHECK(felt.depth == doctest::Approx(slot_of(gate, slot_of_gear(gate, from + step)).rest / 3.0).epsilon(0.05));
+      }
+    }
+  }
 }

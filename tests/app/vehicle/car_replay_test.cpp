@@ -83,8 +83,8 @@ TEST_CASE("a drive does not replay with a different seed, device force, car or s
     const ReplayResult result = replay(other, make_car_load);
     return result.first.has_value();
   };
-  CHECK(changed("car-2 31.7 5 ", "car-2 31.7 6 "));
-  CHECK(changed("car-2 31.7 5 ", "car-2 31.6 5 "));
+  CHECK(changed("car-3 31.7 5 ", "car-3 31.7 6 "));
+  CHECK(changed("car-3 31.7 5 ", "car-3 31.6 5 "));
   CHECK(changed("mass_kg = 1373.4", "mass_kg = 1373.5"));
   CHECK(changed("friction = 0.10", "friction = 0.101"));
   const CarSpec car = shipped_car("hatchback");
@@ -102,7 +102,7 @@ TEST_CASE("a load's name gives the same load; without a car name there is none, 
   REQUIRE(again);
   CHECK(std::string(again->replay_parameters()) == load.replay_parameters());
   for (const char* name :
-       {"none", "", "car-2", "car-2 31.7 1", "car-2 31.7 1 0 0 1 0 0 0 0", "car-2 nan 1 0 0 1 0 0 0 0 0 0 0 40\nx\n"})
+       {"none", "", "car-3", "car-3 31.7 1", "car-3 31.7 1 0 0 1 0 0 0 0", "car-3 nan 1 0 0 1 0 0 0 0 0 0 0 40\nx\n"})
     CHECK(make_car_load(name, gate) == nullptr);
 
   for (const auto& [running, stalled] : {std::pair(true, false), std::pair(false, true), std::pair(false, false)}) {
@@ -126,8 +126,10 @@ TEST_CASE("a load's name gives the same load; without a car name there is none, 
   CHECK(refusal(trace).find("cannot be replayed, because its car or lesson is invalid: hatchback.toml:") !=
         std::string::npos);
   CHECK(refusal(trace).find("must be less than ratio_1") != std::string::npos);
-  trace.header.load = "car 31.7 5 0 0 1 83.8 83.8 0 0\nhatchback.toml\n" + car.text;  // of version 0.1.0
-  CHECK(refusal(trace).find("an earlier version recorded it, whose car drives differently") != std::string::npos);
+  for (const char* old : {"car 31.7 5 0 0 1 83.8 83.8 0 0", "car-2 31.7 5 0 0 1 83.8 83.8 0 0 0 0 0 40"}) {
+    trace.header.load = old + ("\nhatchback.toml\n" + car.text);
+    CHECK(refusal(trace).find("an earlier version recorded it, whose car drives differently") != std::string::npos);
+  }
   trace.header.load = "a \x1b[31mship\nof wood";
   CHECK(refusal(trace).find("the lever load \"a ?[31mship\" is not known to this program") != std::string::npos);
 }

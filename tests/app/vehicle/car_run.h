@@ -63,15 +63,29 @@ struct CarRun {
   Feet feet_;
 };
 
-// A hand that waits for `wait` seconds, and then shifts through `gears` like a practised driver.
-inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, std::vector<int> gears,
-                                           double wait = 0.2, double dwell = 0.5) {
+// A hand that pushes with at most 30 N, which the motors can hold: its spring, 15 N at a ring far from the gear, and
+// effort.
+inline haptics::ScriptedHandConfig measured_hand(glm::dvec2 start) {
+  haptics::ScriptedHandConfig hand = haptics::touring_hand(start);
+  hand.effort_limit = 15.0;
+  return hand;
+}
+
+// A hand that waits for `wait` seconds, and then shifts through `gears`.
+inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, std::vector<int> gears, double wait,
+                                           const haptics::ShiftStyle& style) {
   const glm::dvec2 start = haptics::rest_position(gate, from);
-  haptics::ShiftStyle style;
-  style.dwell_gear = dwell;
   std::vector<haptics::HandStroke> strokes{{start, wait, 0.0, {}, false, false}};
   for (const haptics::HandStroke& stroke : haptics::shift_strokes(gate, start, gears, style)) strokes.push_back(stroke);
-  return {haptics::touring_hand(start), std::move(strokes), 0.001};
+  return {measured_hand(start), std::move(strokes), 0.001};
+}
+
+// The same at the default pace.
+inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, std::vector<int> gears,
+                                           double wait = 0.2, double dwell = 0.5) {
+  haptics::ShiftStyle style;
+  style.dwell_gear = dwell;
+  return shifting_hand(gate, from, std::move(gears), wait, style);
 }
 
 // A start in `gear` while the car rolls: shaft and engine turn at `shaft_speed` [rad/s], and the road speed corresponds

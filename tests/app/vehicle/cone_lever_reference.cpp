@@ -110,9 +110,9 @@ class Reference {
   double slip(const Y& y) const { return y[shaft] - per_road_ * y[road]; }
 
   // [N m] The cone's torque at the shaft. Only a fraction of the push presses on the ring. The fraction rises from 0 at
-  // the detent's crest to 1 at the depth where the ring blocks.
+  // the end of the mouth to 1 at the depth where the ring blocks.
   double cone(const Y& y, double t) const {
-    const double fraction = rise((depth(y) - slot_.crest) / (slot_.block - slot_.crest));
+    const double fraction = rise((depth(y) - slot_.mouth) / (slot_.block - slot_.mouth));
     return torque_per_push_ * std::max(0.0, push(y, t)) * fraction;
   }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kReady = 0.05;    // [s] time at which the hand begins to move, after the guard has ramped up
 constexpr double kHeld = 2000.0;   // [N/m] stiffness of the hand before it moves, and always across the slot
-constexpr double kStart = 0.012;   // [m] depth of the lever at the start, past the slot's mouth
+constexpr double kStart = 0.0101;  // [m] depth of the lever at the start: the end of the slot's mouth
 constexpr double kStraight = 1.0;  // [m] yoke radius of a lever that moves almost in a straight line
 
 // Forces and depths of the hatchback's gate, taken from its layout file and from the README of haptics/gate.
@@ -38,8 +38,7 @@ RingSlot ring_slot(const Slot& slot) {
   ring.resist = 4.0;
   ring.detent = 6.5;
   ring.pull = 12.0;
-  const double engage = ring.crest + 0.75 * (0.86 - 0.42) * length;
-  ring.block = ring.crest + 0.20 * (engage - ring.crest);
+  ring.block = ring.mouth + 0.10 * 0.86 * length;
   return ring;
 }
 
@@ -256,7 +255,7 @@ void compare(const CarSpec& car, const Shift& shift, bool straight, const Tolera
           1.5 * period * steepest(truth) + tolerance.fraction * truth.samples[0].shaft);
     CHECK(measured.out.heat == doctest::Approx(truth.heat).epsilon(0.003));
     const double felt = plateau(measured.push, rate, measured.out), pushed = plateau(push_of(truth), 1000.0, truth);
-    CHECK(std::abs(felt - pushed) < 0.005 * pushed + tolerance.force);
+    CHECK(std::abs(felt - pushed) < 0.01 * pushed + tolerance.force);
     CHECK(measured.imbalance < 1e-13);
   }
 }
@@ -306,7 +305,7 @@ TEST_CASE(
   // shaft's drag torque. T is the cone's torque at the shaft: the force on the ring times the cone's friction and
   // radius, divided by sin(cone angle) and by the gear ratio.
   const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
-  const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
+  const double torque = 30.0 * 7.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
   const ConeLeverSample& still = fine.samples[160];
   const double slip = still.shaft - shaft_per_road(car, 2) * still.road;
   CHECK(still.push == doctest::Approx(30.0 * reference_case.force_scale).epsilon(1e-3));

@@ -56,14 +56,15 @@ Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush
   run.inputs().controls.write(feet);
   Shifted shifted;
   bool was_through = false;
-  while (run.time() < 2.5 && !shifted.in) {
+  while (run.time() < 6.0 && !shifted.in) {
     const VehicleState before = load.state();  // the ring uses the state before the step
     const double difference = std::abs(before.shaft_speed - shaft_per_road(car, to) * before.road_speed);
     shifted.in = run.step().gear == to;
     const VehicleState& now = load.state();
     shifted.ground += now.grind_power / rush.rate;
-    const bool through =
-        now.sync != SyncPhase::free && now.sync != SyncPhase::indexing && now.sync != SyncPhase::synchronising;
+    // A hand that bounces off the ring may reach the opposite slot.
+    const bool through = run.loop().snapshot().slot == slot_of_gear(gate, to) && now.sync != SyncPhase::free &&
+                         now.sync != SyncPhase::indexing && now.sync != SyncPhase::synchronising;
     if (through && !was_through) shifted.difference = std::max(shifted.difference, difference / ratio_of(car, to));
     was_through = through;
   }

@@ -61,7 +61,7 @@ SequentialDrive shift_through(const CarStart& from, const std::vector<int>& gear
 TEST_CASE("with the clutch down, one stroke is one gear, from first to sixth and back, without grinding") {
   CarStart start = rolling_in(sequential_car(), 1, 250.0);
   start.running = true;
-  const SequentialDrive result = shift_through(start, {6, 1}, 1.0);
+  const SequentialDrive result = shift_through(start, {6, 1}, 1.0, 1.5);
   CHECK(result.gears == std::vector{2, 3, 4, 5, 6, 5, 4, 3, 2, 1});
   CHECK(result.meshed == std::vector{0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0, 5, 0, 4, 0, 3, 0, 2, 0, 1});
   CHECK(result.grind < 1e-9);

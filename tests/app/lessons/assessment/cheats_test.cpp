@@ -496,6 +496,7 @@ constexpr Cheat kCheats[] = {
     {"skip_shifts", skipped_with_one_press, LessonEnd::left, "2 to 4 to 2 with one press of the clutch"},
     {"eco_driving", coasted_in_neutral, LessonEnd::done, "coasted in neutral for most of the way"},
     {"rev_matching", one_blip_for_two, LessonEnd::left, "one blip for two shifts"},
+    {"heel_and_toe", honest::rev_matching, LessonEnd::aborted, "no brake"},
     {"rev_matching", wild_blips, LessonEnd::done, "blips to 4200 rpm"},
     {"rev_matching", no_blip_at_idle, LessonEnd::done, "no blip, at 15 km/h"},
     {"skip_shifts", skipped_at_25, LessonEnd::done, "2 to 4 to 2 at 25 km/h"},

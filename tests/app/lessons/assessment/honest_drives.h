@@ -106,7 +106,7 @@ inline void down_without_a_blip(ScriptedDrive& d) {
 }
 
 inline void back_up(ScriptedDrive& d, double metres) {
-  d.wait(2.0);
+  d.wait(3.0);
   d.lever(haptics::kReverseGear);
   d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
   const double from = d.now().distance;
@@ -293,7 +293,7 @@ inline void stalled_in_a_junction(ScriptedDrive& d) {
 inline void reverse_uphill(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
-  d.wait(2.0);
+  d.wait(3.0);
   d.lever(haptics::kReverseGear);
   d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
   const auto creep = [&](double rate) {
@@ -314,7 +314,7 @@ inline void reverse_uphill(ScriptedDrive& d) {
 
 inline void reverse_downhill(ScriptedDrive& d) {
   d.clutch_down();
-  d.wait(2.0);
+  d.wait(3.0);
   d.lever(haptics::kReverseGear);
   foot_for_hand_brake(d);
   const double from = d.now().distance;
@@ -390,6 +390,17 @@ inline void rev_matching(ScriptedDrive& d) {
   d.wait(0.3);
   a.slow_to(35.0);
   a.shift_with_blip(2);
+}
+
+inline void heel_and_toe(ScriptedDrive& d) {
+  Able a{d};
+  d.press(d.feet.pedals.throttle, 0.0, 0.15);
+  d.press(d.feet.pedals.brake, 0.15, 0.3);
+  d.until([&] { return d.km_per_h() < 58.0; });
+  a.shift_with_blip(3);
+  d.until([&] { return d.km_per_h() < 38.0; });
+  a.shift_with_blip(2);
+  d.wait(0.4);
 }
 
 inline void another_gate(ScriptedDrive& d) {
@@ -567,6 +578,7 @@ inline constexpr Honest kHonest[] = {
     {"skip_shifts", skip_shifts},
     {"eco_driving", eco_driving},
     {"rev_matching", rev_matching},
+    {"heel_and_toe", heel_and_toe},
     {"another_gate", another_gate},
     {"six_speed", six_speed},
 };

@@ -45,7 +45,7 @@ inline lessons::LessonResult some_result(int shifts) {
   result.passed = true;
   result.why = "It's \"why\"; DROP TABLE shift; --";
   result.slip_energy = 2020.5;
-  result.figures = {31.5, 12.25, 0.125, std::nullopt, 1.0625, 4.5};
+  result.figures = {31.5, 12.25, 0.125, std::nullopt, 1.0625, 4.5, 0.31};
   result.grading = lessons::Grading::norm;
   result.car = "hatchback";
   result.path_length = 0.25;

@@ -263,7 +263,7 @@ TEST_CASE("an unusable file is rejected in one sentence that names it") {
   const TempFolder folder;
   write_carless(folder / "other.trace", 10, "a spring\nof steel");
   write_carless(folder / "late.trace", 10, "none", 77);
-  write_carless(folder / "car.trace", 10, "car-2 30 1 0 0 1 80 0 0 0 0 0 0 40\nbad.toml\nname = 3\n");
+  write_carless(folder / "car.trace", 10, "car-3 30 1 0 0 1 80 0 0 0 0 0 0 40\nbad.toml\nname = 3\n");
   for (const char* name : {"gone.trace", "other.trace", "late.trace", "car.trace"}) {
     CAPTURE(name);
     const std::string words = refusal(folder / name);

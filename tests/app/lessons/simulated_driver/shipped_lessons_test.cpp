@@ -63,6 +63,7 @@ constexpr Claims kClaims[] = {
      "clutch_dump clutch_early clutch_late early_downshift early_shift late_shift no_clutch over_rev stall wrong_gear"},
     {"eco_driving", "coasting early_shift late_shift lugging no_clutch over_rev stall wrong_gear"},
     {"rev_matching", "clutch_dump early_downshift jerk late_shift no_clutch over_rev rev_mismatch stall"},
+    {"heel_and_toe", "early_downshift late_shift no_clutch over_rev rev_mismatch"},
     {"another_gate", "early_downshift early_shift late_shift no_clutch over_rev stall wrong_gear"},
     {"six_speed", "early_downshift early_shift late_shift no_clutch over_rev stall wrong_direction wrong_gear"},
 };
