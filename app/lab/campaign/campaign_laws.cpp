@@ -26,6 +26,8 @@ constexpr double kQuietRipple = 1e-3;
 // of at least 4 counts, and the true motion can be 1 count larger at each end.
 constexpr double kQuietCounts = 6.0;
 
+constexpr double kMinSettleTime = 1.0;  // [s]
+constexpr double kSettledSwing = 10.0;  // [1] by this factor has a swing of hand and handle decayed
 constexpr double kSmallSwing = 0.8e-3;  // [m] peak-to-peak width of a tremor, see reversal_limiter.cpp
 
 constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
@@ -41,7 +43,7 @@ constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
     {"guard", "the guard finds no fault", "(number of the fault)"},
     {"quiet", "a lever that is held still does not vibrate", "m"},
     {"fades", "while the hand keeps still, any remaining oscillation of the lever decays within seconds", "m"},
-    {"gear holds", "while the lever is held still, the gear changes at most once", "changes"},
+    {"gear holds", "while the lever is held still, the gear changes at most once", "violations"},
     {"reached", "a gripping hand that aims cleanly at a gear engages it", "missed"},
 }};
 
@@ -145,6 +147,8 @@ LawLimits law_limits(const haptics::HapticConfig& config, const haptics::Simulat
   limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
   limits.small_swing = std::max(kSmallSwing, kQuietCounts * spec.position_step);
   const double decay = std::min(passive_decay(spec.axis_x, lever.hand), passive_decay(spec.axis_y, lever.hand));
+  // The hand's own swing after a shift, up to a slot's depth, is then shorter than the way between engage and release.
+  limits.settle_time = std::max(kMinSettleTime, std::log(kSettledSwing) / decay);
   limits.remaining_swing = std::exp(-0.5 * decay * kFading);
   return limits;
 }
@@ -232,12 +236,18 @@ void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimit
   const dvec2 measured_travel = cycle.now.lever - cycle.before.lever;
   const dvec2 mistaken = glm::abs(command - previous) + slope * (glm::abs(true_travel - last_travel_) +
                                                                  glm::abs(true_travel) + glm::abs(measured_travel));
-  if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(previous.x) + glm::abs(previous.y));
+  if (surplus_ == 0.0) {
+    start_force_ = glm::abs(previous);
+    allowed_ = limits.count * (start_force_.x + start_force_.y);
+  }
   const double sum = surplus_ + net.x + net.y;
   surplus_ = sum < 0.0 ? 0.0 : sum;  // a NaN stays NaN
   allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
   last_travel_ = true_travel;
-  record.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+  const dvec2 risen = glm::max(glm::abs(command) - start_force_, 0.0);
+  const double at_end = 0.5 * limits.count * (risen.x + risen.y);
+  record.note(CampaignLaw::energy, surplus_, allowed_ + at_end + kRounding,
+              1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
 void EnergyLaw::reset() noexcept {

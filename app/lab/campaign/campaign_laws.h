@@ -68,6 +68,7 @@ struct LawLimits {
   double count = 0.0;             // [m] size of an encoder count; 0: no encoder
   double ripple = 0.0;            // [m] largest peak-to-peak motion allowed while the hand keeps still
   double small_swing = 0.0;       // [m] peak-to-peak motion that a tremor or the encoder's resolution may cause
+  double settle_time = 1.0;       // [s] into a hold; from then on the gear must not change
   double remaining_swing = 1.0;   // [1] fraction of an oscillation above small_swing that may remain after kFading
 };
 LawLimits law_limits(const haptics::HapticConfig& config, const haptics::SimulatedLeverConfig& lever,
@@ -102,9 +103,9 @@ class LockoutLaw {
 // stored at the start plus the energy that the handle dissipates.
 // Stored energy: the sum of F^2 / (2 c) over both axes, with force F and c = damping b / period T (Kim & Ryu 2010).
 // Dissipation: at least b dx^2 / T per period with travel dx (Cauchy-Schwarz: a steady speed dissipates least).
-// Encoder: with count size q, the loop can misjudge the travel by up to q at each end. This allows another q |F| at the
-// start, and (q / 2) (|dF| + c |d dx|) per period with changes dF and d dx, and (q c / 2) times the sum of true and
-// measured travel.
+// Encoder: with count size q, a position is wrong by up to q / 2, so a sum of F times travel, by parts, is wrong by up to
+// (q / 2) (|F| at the start + |F| at the end + the sum of |dF|). The spring c adds (q c / 2) (|d dx| + true travel +
+// measured travel) per period. At the end at least the force of the start is assumed.
 class EnergyLaw {
  public:
   void update(const CyclePair& cycle, glm::dvec2 true_travel, const LawLimits& limits, LawRecord& record) noexcept;
@@ -114,6 +115,7 @@ class EnergyLaw {
 
   double surplus_ = 0.0, allowed_ = 0.0;  // [J] surplus: energy generated in excess since the surplus was last zero
   glm::dvec2 last_travel_{0.0};           // [m]
+  glm::dvec2 start_force_{0.0};           // [N] when the surplus was last zero
 };
 
 // While the hand keeps still, the gear may change at most once. A gear may re-engage only after the lever's depth in

@@ -20,8 +20,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kQuietWindow = 0.5;     // [s] duration of the measurement at the end of a hold: one period of 2 Hz
-constexpr double kGearSettleTime = 1.0;  // [s] from this time into a hold, the gear must not change
+constexpr double kQuietWindow = 0.5;  // [s] duration of the measurement at the end of a hold: one period of 2 Hz
 
 haptics::GateLayout layout_of(const CampaignCase& drawn, std::span<const haptics::GateLayout> shipped) {
   if (drawn.shipped_gate >= 0) return shipped[static_cast<std::size_t>(drawn.shipped_gate)];
@@ -148,7 +147,7 @@ class CaseRun {
   }
 
   bool is_held_still() const {
-    return hold_ < script_.holds.size() && hand_.time() >= script_.holds[hold_].begin + kGearSettleTime;
+    return hold_ < script_.holds.size() && hand_.time() >= script_.holds[hold_].begin + limits_.settle_time;
   }
 
   void check_hold(const haptics::HapticSnapshot& now) {

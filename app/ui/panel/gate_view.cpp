@@ -281,12 +281,17 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateD
   c.list.PopClipRect();
 }
 
-std::optional<int> gear_at(const haptics::Gate& gate, ImVec2 at) {
+std::optional<int> gear_at(const haptics::Gate& gate, const haptics::GateDescription& description, ImVec2 at) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const Extent box = extent_of(gate);
+  const Extent box = extent_of(gate, description);
   const GateFrame frame = fit(box, low, {high.x - low.x, high.y - low.y});
   const glm::dvec2 p = frame.center + glm::dvec2(at.x - frame.middle.x, frame.middle.y - at.y) / frame.px_per_m;
   if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) return std::nullopt;
+  if (haptics::is_mechanism(gate)) {
+    for (const haptics::Slot& place : haptics::slots(gate))
+      if (glm::distance(p, place.at) < kRim) return place.gear;
+    return std::nullopt;
+  }
   const int column = haptics::nearest_column(gate, p.x);
   for (const haptics::Slot& slot : haptics::slots(gate)) {
     const double depth = static_cast<int>(slot.side) * p.y;

@@ -28,6 +28,6 @@ void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::GateD
 
 // The gear whose slot or label is at the place `at` [px] of a view that fills the last ImGui item; neutral between the
 // slots; empty beside the gate.
-std::optional<int> gear_at(const haptics::Gate& gate, ImVec2 at);
+std::optional<int> gear_at(const haptics::Gate& gate, const haptics::GateDescription& description, ImVec2 at);
 
 }  // namespace gearshift::ui

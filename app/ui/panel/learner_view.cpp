@@ -131,7 +131,7 @@ void draw_gate(Controls& controls, const PanelInput& input, const haptics::GateD
   static const Trail kNoTrail;
   ImGui::SetCursorScreenPos(low);
   if (ImGui::InvisibleButton("gate", size))
-    if (const auto gear = gear_at(input.gate, ImGui::GetMousePos())) out.push_back(DriveCommand(ShiftTo{*gear}));
+    if (const auto gear = gear_at(input.gate, gate, ImGui::GetMousePos())) out.push_back(DriveCommand(ShiftTo{*gear}));
   controls.mark("gate");
   ImGui::SetCursorScreenPos(low);
   draw_gate_view(size, input.gate, gate, input.now, kNoTrail, 0.0, {{}, input.way, input.wanted_gear});

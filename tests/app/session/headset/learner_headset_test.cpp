@@ -319,8 +319,10 @@ TEST_CASE("a failed opening is retried after a pause, which doubles with each fa
   worn.headset = std::make_unique<LearnerHeadset>(setup, worn.window, worn.ui);
   CHECK(failure(*worn.headset).find("xrCreateSession failed") != std::string::npos);
   const int sessions = xr_test::control().record.calls["xrCreateSession"];
-  CHECK_FALSE(finds(*worn.headset, 3.0));  // the pause is 2 s, and this attempt fails, too
-  CHECK(xr_test::control().record.calls["xrCreateSession"] == sessions + 1);
+  const auto attempts = [&] { return xr_test::control().record.calls["xrCreateSession"] - sessions; };
+  // The pause is 2 s, and this attempt fails, too.
+  for (int i = 0; i < 20 && attempts() == 0; ++i) CHECK_FALSE(finds(*worn.headset, 0.5));
+  CHECK(attempts() == 1);
   CHECK(worn.headset->take_message().empty());  // an unchanged message is not reported again
   CHECK_FALSE(finds(*worn.headset, 2.0));       // the pause is 4 s
   REQUIRE(finds(*worn.headset));
