@@ -159,7 +159,8 @@ class Trials {
   void print_start() {
     if (trials_.json) return;
     if (!std::exchange(has_printed_goal_, true))
-      base::print_out("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
+      base::print_out("{}: {}\n", trials_.drive.lesson.title,
+                      lessons::text_in_unit(trials_.drive.lesson.goal, trials_.drive.car.speed_unit));
     if (!std::exchange(has_printed_guidance_, true)) print_guidance();
   }
 

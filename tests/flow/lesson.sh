@@ -66,6 +66,11 @@ check "no folder for recordings: the lesson is driven" learn nowhere hill_start 
 check "and that is reported" test "$(wc -l <nowhere.err)" -eq 1
 rm data/gearshift/recordings
 
+sed 's/^title/speed_unit = "mph"\n&/' "$2/assets/cars/hatchback.toml" >miles.toml
+check "a car in miles per hour" exits 1 learn miles rev_matching --car ./miles.toml --fault late_shift
+check "the goal and the error are in its unit" grep -q "from third to second at 22 mph" miles.txt
+check "and nothing else" exits 1 grep -q "km/h" miles.txt
+
 # One JSON document, with what the text says.
 json() { python3 -c "import json; d = json.load(open('json.txt')); runs = d['runs']; run = runs[-1]; assert $1, run"; }
 check "JSON" learn json skip_shifts --json
