@@ -216,7 +216,8 @@ void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
   const bool pushes = now.car.sync == vehicle::SyncPhase::synchronising;
   const bool in_slot = hand_.in_last_stroke() && now.car.sync != vehicle::SyncPhase::free;
   if (shift_.detour == Detour::blocked) hand_.set_push_limit(pushes ? 4.0 : 0.0);
-  if (errors_.of(ErrorKind::over_push) > 0.0 && in_slot)
+  const bool is_stopped = in_slot && now.car.sync != vehicle::SyncPhase::indexing;  // by the ring or the end stop
+  if (errors_.of(ErrorKind::over_push) > 0.0 && is_stopped)
     hand_.set_extra(
         {0.0, (kBaseOverPush + kOverPushGain * errors_.of(ErrorKind::over_push)) * side_of(gate_, shift_.gear)});
   const double time_waiting = hand_.time_waiting(time);

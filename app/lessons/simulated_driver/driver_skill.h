@@ -70,7 +70,7 @@ DriverSkill skill_of(double error) noexcept;
 //   blocked            pushes weakly towards first gear at speed
 //   missed_shift       pulls the lever back before the gear is engaged, then pauses
 //   wrong_gear, wrong_column   enters a wrong gear, or the mouth of a wrong slot, first
-//   over_push          pushes on synchroniser and end stop with 55 N, plus 35 N times the amount
+//   over_push          pushes on synchroniser and end stop with 60 N, plus 35 N times the amount
 //   step_order         presses the throttle 0.6 s (times the amount) before the clutch comes up
 //   rollback           releases the handbrake before the bite point
 //   jerk               releases the clutch abruptly at high revs
