@@ -70,7 +70,8 @@ constexpr const char* kHeldSpringLaw =
 constexpr const char* kSwingLaw =
     "with the observer hold, a swing above 10 Hz must shrink to a third in seven half-swings at 1.1 K, or the reversal "
     "limiter softens the wall";
-constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
+constexpr const char* kDampingLaw =
+    "damping by a sampled velocity is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
 constexpr const char* kObservedDampingLaw = "the observer hold is stiff and quiet with B = 0.7 m / tau";
@@ -89,7 +90,7 @@ constexpr const char* kStableFeelLaw =
 constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
 // Moves a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
-// law applied last is reported.
+// tightest is reported.
 struct Limiter {
   bool allow_unstable;
   std::vector<TuningLimit>& limits;
@@ -106,6 +107,8 @@ struct Limiter {
     const double used = allow_unstable ? value : bound;
     const auto same = [&](const TuningLimit& one) { return one.parameter == parameter; };
     const auto before = std::find_if(limits.begin(), limits.end(), same);
+    // With allow_unstable the value has not moved to the bound before, which may be tighter.
+    if (before != limits.end() && (bound < value ? before->bound <= bound : before->bound >= bound)) return;
     const double wanted = before == limits.end() ? value : before->wanted;
     if (before != limits.end()) limits.erase(before);
     limits.push_back({law, parameter, wanted, used, bound, std::string(hand)});

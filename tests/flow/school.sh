@@ -236,6 +236,17 @@ check "is the same, got: $(diff class/standings.csv files/standings.csv | head -
 check "a learner of several files" "$gearshift" report "${files[@]}" --learner "Learner 3" --out three >/dev/null
 check "several files are only read" refused "one history at a time only" report "${files[@]}" --learner "Learner 3" --next reverse
 
+# A school of the version before, which lacks a column.
+sql "ALTER TABLE gearshift.lesson_run DROP COLUMN pedal_corrections_per_s"
+sql "UPDATE gearshift.school SET version = 1"
+lesson 1 Ada >old.out 2>old.err
+check "an older school is told, got: $(cat old.err)" test "$(grep -c "gearshift school --make" old.err)" -eq 1
+before=$(runs_of Ada)
+check "the owner upgrades it" "$gearshift" school --database "$(url owner)" --make >/dev/null
+lesson 1 Ada >>old.out 2>quiet
+check "and the seat sends again: $before, $(runs_of Ada)" test "$(runs_of Ada)" -eq $((before + 2))
+check "the new column, too" test "$(sql "SELECT count(*) FROM gearshift.lesson_run WHERE pedal_corrections_per_s IS NOT NULL")" -ge 2
+
 # A newer school.
 sql "UPDATE gearshift.school SET version = 99"
 lesson 1 Ada >/dev/null 2>newer.err

@@ -416,6 +416,29 @@ TEST_CASE("allow_unstable uses the wanted values, still reports what is not stab
   for (const TuningLimit& limited : used.limits) CHECK(limited.used == limited.wanted);
 }
 
+TEST_CASE("the limits that allow_unstable reports are those without it") {
+  for (const double rate : {100.0, 250.0, 1000.0}) {
+    HapticConfig config;
+    config.rate = rate;
+    config.contact.hold = ContactHold::zero_order;
+    config.tuning.wall_damping = 20.0;
+    DeviceSpec spec;
+    spec.simulated = true;
+    spec.delay = 1;
+    const AdmittedTuning limited = admit_tuning(config, spec, paper_feel());
+    config.contact.allow_unstable = true;
+    const AdmittedTuning used = admit_tuning(config, spec, paper_feel());
+    const auto stiffness_limit = [](const AdmittedTuning& admitted) {
+      for (const TuningLimit& one : admitted.limits)
+        if (one.parameter == TuningParameter(&HapticTuning::wall_stiffness)) return one.bound;
+      return 0.0;
+    };
+    CAPTURE(rate);
+    REQUIRE(stiffness_limit(limited) > 0.0);
+    CHECK(stiffness_limit(used) <= stiffness_limit(limited) * (1.0 + 1e-12));
+  }
+}
+
 TEST_CASE("the feel is no stiffer than the wall that carries the proxy") {
   HapticTuning wanted;
   wanted.feel_scale = 4.0;
@@ -579,7 +602,8 @@ TEST_CASE("the loop renders the rest of a wall's damping; with the device's part
   CHECK(limit->wanted == 10.0);
   CHECK(limit->used == both.tuning.wall_damping);
   CHECK(limit->law ==
-        "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T; the device itself renders "
+        "damping by a sampled velocity is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T; the device itself "
+        "renders "
         "another 3 N s/m");
 
   const AdmittedTuning device_only = admitted_with(strong, 10.0, ContactHold::half_sample);
