@@ -30,6 +30,10 @@ key Escape
 for k in F2 c c F1 F1 r F11; do key $k; done
 check "panel, cameras, help and full screen" alive
 key F11
+key F2
+check "the chosen view is kept for the next start" within 10 grep -q "^engineer$" config/gearshift/view.txt
+key F2
+check "and so is the other" within 10 grep -q "^learner$" config/gearshift/view.txt
 for _ in $(seq 30); do xdotool windowsize "$window" $((RANDOM % 900 + 60)) $((RANDOM % 600 + 60)); sleep 0.02; done
 xdotool windowunmap "$window"
 sleep 0.5

@@ -168,7 +168,7 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
       const float y = parts.low().y + static_cast<float>(row) * line;
       lamp({x, y + above}, l.name.c_str(), l.on, l.colour);
       if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({x, y}, {x + width, y + line}))
-        ImGui::SetTooltip("%s", l.tooltip);
+        tooltip_above({x, ImGui::GetWindowPos().y}, l.tooltip);
     }
     x += width;
   }
@@ -204,7 +204,7 @@ bool draw_message(Controls& controls, const BarCursor& parts, float width, const
   ImGui::PopClipRect();
   const bool is_cut = ImGui::GetItemRectSize().y > room.y;
   if ((is_cut || message != input.message) && ImGui::IsItemHovered())
-    ImGui::SetTooltip("%.*s", static_cast<int>(input.message.size()), input.message.data());
+    tooltip_above({low.x, ImGui::GetWindowPos().y}, input.message);
   ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
   controls.line(loop_line(input, width), width, ink::kSoft);
   return !is_cut;

@@ -1,5 +1,7 @@
 #include "app/ui/panel/controls.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -29,6 +31,8 @@ std::string with_ellipsis(std::string_view text, float width) {
 void Controls::begin_frame() noexcept {
   ++frame_;
   shortened_ = 0;
+  last_stops_.swap(stops_);
+  stops_.clear();
 }
 
 std::optional<ControlRect> Controls::rect(std::string_view name) const {
@@ -38,6 +42,8 @@ std::optional<ControlRect> Controls::rect(std::string_view name) const {
 }
 
 void Controls::mark(std::string_view name) {
+  if (const ImGuiID id = ImGui::GetItemID(); id != 0)
+    stops_.push_back({id, ImGui::GetCurrentWindow(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   if (!ImGui::IsItemVisible()) return;
   auto place = places_.find(name);
   if (place == places_.end()) place = places_.emplace(name, Place{}).first;

@@ -10,12 +10,22 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "haptics/files/parameter.h"
 
+struct ImGuiWindow;  // of imgui_internal.h
+
 namespace gearshift::ui {
+
+// A control that the Tab key reaches.
+struct TabStop {
+  ImGuiID id;
+  ImGuiWindow* window;
+  ImVec2 min, max;  // [px]
+};
 
 struct ControlRect {
   glm::dvec2 min{0.0}, max{0.0};  // [px]
@@ -28,6 +38,9 @@ class Controls {
   // Returns the control's place; empty if the control was not drawn in this frame or is scrolled out of view.
   std::optional<ControlRect> rect(std::string_view name) const;
   int shortened() const noexcept { return shortened_; }  // number of texts in this frame that did not fit
+
+  // In the order in which they were drawn in the last frame, also those that are scrolled out of view.
+  std::span<const TabStop> tab_stops() const noexcept { return last_stops_; }
 
   void mark(std::string_view name);                               // records the last ImGui item under this name
   const char* join(std::string_view kind, std::string_view key);  // "kind: key", valid until the next call
@@ -51,6 +64,7 @@ class Controls {
     std::uint64_t frame = 0;
   };
   std::map<std::string, Place, std::less<>> places_;
+  std::vector<TabStop> stops_, last_stops_;  // of this frame and of the last one
   std::uint64_t frame_ = 0;
   int shortened_ = 0;
   std::string joined_;

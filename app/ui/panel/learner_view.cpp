@@ -30,6 +30,13 @@ bool is_one_row(float width) {
   return width - strip_padding() >= (kInstrumentsWidth + kPartGap + kButtonsWidth) * engine::ui_em();
 }
 
+// An invisible control shows by itself that it has the keyboard.
+void draw_focus() {
+  if (!ImGui::IsItemFocused()) return;
+  ImGui::GetForegroundDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ink::kAccent, 3.0f, 0,
+                                          2.0f);
+}
+
 struct PedalLook {
   const char* control;  // name in Panel::control_rect()
   const char* label;
@@ -73,6 +80,7 @@ void draw_pedals(Controls& controls, const PanelInput& input, ImVec2 at, float h
     ImGui::SetCursorScreenPos(low);
     ImGui::InvisibleButton(look.control, {high.x - low.x, high.y - low.y});
     controls.mark(look.control);
+    draw_focus();
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left))
       out.push_back(DriveCommand(MovePedal{
           look.pedal, std::clamp(static_cast<double>((ImGui::GetMousePos().y - low.y) / (high.y - low.y)), 0.0, 1.0)}));
@@ -133,6 +141,7 @@ void draw_gate(Controls& controls, const PanelInput& input, const haptics::GateD
   if (ImGui::InvisibleButton("gate", size))
     if (const auto gear = gear_at(input.gate, gate, ImGui::GetMousePos())) out.push_back(DriveCommand(ShiftTo{*gear}));
   controls.mark("gate");
+  draw_focus();
   ImGui::SetCursorScreenPos(low);
   draw_gate_view(size, input.gate, gate, input.now, kNoTrail, 0.0, {{}, input.way, input.wanted_gear});
 }

@@ -365,7 +365,7 @@ PanelCommands Panel::draw(const PanelInput& input) {
   State& s = *state_;
   PanelCommands out;
   s.controls.begin_frame();
-  update_keyboard_focus(kBarName, visible());
+  update_keyboard_focus(kBarName, visible(), s.controls.tab_stops());
   s.follow(input);
   for (const TuningView::Step step : s.steps) s.tuning.apply_step(step, input, out);
   s.steps.clear();

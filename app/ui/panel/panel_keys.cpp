@@ -2,6 +2,9 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace gearshift::ui {
 namespace {
 
@@ -30,9 +33,26 @@ void enter(ImGuiWindow* window) {
   show_highlight(*ImGui::GetCurrentContext());
 }
 
+// Moves the keyboard focus from the focused control to the next one, or with `back` to the one before. Dear ImGui 1.86
+// would go only to text fields, and newer versions only through one window.
+void go_to_next(std::span<const TabStop> stops, bool back) {
+  if (stops.empty()) return;
+  const ImGuiID focused = ImGui::GetCurrentContext()->NavId;
+  const auto now = std::find_if(stops.begin(), stops.end(), [&](const TabStop& stop) { return stop.id == focused; });
+  const auto count = static_cast<std::ptrdiff_t>(stops.size());
+  const std::ptrdiff_t at = now == stops.end() ? (back ? 0 : -1) : now - stops.begin();
+  const TabStop& next = stops[static_cast<std::size_t>((at + (back ? count - 1 : 1)) % count)];
+  const ImRect place(next.min, next.max);
+  ImGui::FocusWindow(next.window);
+  ImGui::SetNavID(next.id, ImGuiNavLayer_Main, 0, ImGui::WindowRectAbsToRel(next.window, place));
+  ImGui::ScrollToBringRectIntoView(next.window, place);
+  ImGui::NavMoveRequestCancel();
+  show_highlight(*ImGui::GetCurrentContext());
+}
+
 }  // namespace
 
-void update_keyboard_focus(const char* first_window, bool shown) {
+void update_keyboard_focus(const char* first_window, bool shown, std::span<const TabStop> stops) {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();
   const bool busy = ImGui::IsAnyItemActive() || ui.NavWindowingTarget != nullptr ||
                     ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
@@ -43,6 +63,8 @@ void update_keyboard_focus(const char* first_window, bool shown) {
     return;
   }
   const bool by_mouse = !is_highlight_visible(ui), nowhere = ui.NavId == 0;
+  if (!by_mouse && !nowhere && ImGui::IsKeyPressed(ImGuiKey_Tab) && !ui.IO.KeyCtrl)
+    return go_to_next(stops, ui.IO.KeyShift);
   if (by_mouse || (nowhere && ImGui::IsKeyPressed(ImGuiKey_Escape, false))) {
     ImGui::SetWindowFocus(nullptr);
   } else if (nowhere) {

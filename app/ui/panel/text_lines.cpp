@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/ui/panel/palette.h"
+
 namespace gearshift::ui {
 
 void put(std::string_view text, ImU32 colour) {
@@ -66,6 +68,17 @@ std::string with_short_paths(std::string_view words, float width) {
     words.remove_prefix(std::min(words.size(), end + 1));
   }
   return all;
+}
+
+void tooltip_above(ImVec2 at, std::string_view text) {
+  constexpr float kWidth = 26.0f;  // [em]
+  const float screen = ImGui::GetIO().DisplaySize.x;
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, {screen > 0.0f ? std::clamp(at.x / screen, 0.0f, 1.0f) : 0.0f, 1.0f});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(std::min(kWidth * engine::ui_em(), 0.9f * screen));
+  put(text, ink::kText);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 void same_line_if_fits(float width) {

@@ -24,6 +24,9 @@ std::string without_middle(std::string_view text, float width);
 // Applies without_middle() to each word that contains a slash, i.e. to the paths in a sentence.
 std::string with_short_paths(std::string_view words, float width);
 
+// Shows the text in a tooltip whose lower edge is at `at` [px], within the screen, so that it covers nothing below.
+void tooltip_above(ImVec2 at, std::string_view text);
+
 // Continues on the previous item's line if `width` [px] fits there, otherwise on the next line.
 void same_line_if_fits(float width);
 // Moves the cursor so that the next item, `width` [px] wide, ends at the right edge of the previous item's line. If the

@@ -1,6 +1,9 @@
 // The learner's view at many sizes: everything is there and legible, and the mouse alone can drive.
 #include "app/ui/panel/learner_view.h"
 
+#include <imgui_internal.h>
+
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -197,4 +200,69 @@ TEST_CASE("a key that comes too early is answered with the one that comes first"
   CHECK(early_reply({.throttle = true}, car, kKeys).empty());
   car.clutch_bite = 0.0;  // no car
   CHECK(early_reply({.shifts = true}, car, kKeys).empty());
+}
+
+TEST_CASE("Tab goes through every control of the screen and back to the first, Shift+Tab backwards, Escape leaves") {
+  constexpr int kTab = 258, kShift = 340;  // GLFW's key codes
+  LearnerRig rig;
+  rig.input.now.guard = haptics::GuardState::running;
+  rig.input.coach = offered();
+  for (int i = 0; i < 4; ++i) rig.frame();
+  std::vector<std::string> names(std::begin(kStripControls), std::end(kStripControls));
+  for (const char* name : {"lesson_dismiss", "lesson_begin", "mode", "help"}) names.emplace_back(name);
+  const auto focused = [&] {
+    const ImGuiContext& ui = *ImGui::GetCurrentContext();
+    REQUIRE(ui.NavWindow != nullptr);
+    const ImRect at = ImGui::WindowRectRelToAbs(ui.NavWindow, ui.NavWindow->NavRectRel[0]);
+    for (const std::string& name : names) {
+      const ControlRect r = rig.rect(name);
+      if (std::abs(r.min.x - static_cast<double>(at.Min.x)) < 2.0 &&
+          std::abs(r.min.y - static_cast<double>(at.Min.y)) < 2.0)
+        return name;
+    }
+    return std::string();
+  };
+  CHECK_FALSE(rig.panel.has_keyboard());
+  (void)rig.press(kTab);
+  CHECK(rig.panel.has_keyboard());
+  const std::string first = focused();
+  std::vector<std::string> reached{first};
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    (void)rig.press(kTab);
+    reached.push_back(focused());
+  }
+  for (const std::string& name : names) {
+    CAPTURE(name);
+    CHECK(std::count(reached.begin(), reached.end(), name) == 1);
+  }
+  (void)rig.press(kTab);
+  CHECK(focused() == first);
+  rig.events.steps = {engine::UiKey{kShift, true}};
+  rig.frame();
+  (void)rig.press(kTab);
+  CHECK(focused() == reached.back());
+  rig.events.steps = {engine::UiKey{kShift, false}};
+  rig.frame();
+  (void)rig.press(kEscape);
+  (void)rig.press(kEscape);
+  CHECK_FALSE(rig.panel.has_keyboard());
+}
+
+TEST_CASE("no tooltip of the bar lies over STOP, at any width") {
+  PanelRig rig;
+  for (const float width : {700.0f, 900.0f, 1280.0f, 1920.0f}) {
+    CAPTURE(width);
+    rig.screen.width = width;
+    for (int i = 0; i < 3; ++i) rig.frame();
+    const ControlRect stop = rig.rect("stop");
+    for (double x = 5.0; x < stop.min.x; x += 40.0)
+      for (const double y : {stop.min.y + 6.0, stop.max.y - 6.0}) {
+        rig.events.mouse = {x, y};
+        rig.frame();
+        rig.frame();
+        for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+          if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0)
+            CHECK(static_cast<double>(window->Pos.y + window->Size.y) <= stop.min.y);
+      }
+  }
 }
