@@ -10,7 +10,7 @@ namespace gearshift::shifter {
 namespace {
 
 // Offsets in the packet [bytes].
-constexpr std::size_t kTime = 0, kGear = 10, kSpeed = 12, kRpm = 16, kThrottle = 48, kClutch = 56;
+constexpr std::size_t kTime = 0, kGear = 10, kSpeed = 12, kRpm = 16, kThrottle = 48, kBrake = 52, kClutch = 56;
 
 constexpr double kMaxSpeed = 200.0;       // [m/s]
 constexpr double kMaxRpm = 30000.0;       // [rpm]
@@ -43,12 +43,13 @@ std::optional<OutGaugePacket> parse_outgauge(std::span<const std::uint8_t> bytes
   packet.gear = static_cast<int>(bytes[kGear]) - 1;  // reverse 0, neutral 1, first 2
   packet.speed = read_float(bytes, kSpeed);
   const double rpm = read_float(bytes, kRpm), throttle = read_float(bytes, kThrottle);
-  const double clutch = read_float(bytes, kClutch);
+  const double brake = read_float(bytes, kBrake), clutch = read_float(bytes, kClutch);
   if (packet.gear > haptics::kMaxGateGear || !is_within(packet.speed, -kMaxSpeed, kMaxSpeed) ||
-      !is_within(rpm, -kMaxRpm, kMaxRpm) || !is_pedal(throttle) || !is_pedal(clutch))
+      !is_within(rpm, -kMaxRpm, kMaxRpm) || !is_pedal(throttle) || !is_pedal(brake) || !is_pedal(clutch))
     return std::nullopt;
   packet.engine_speed = rpm * std::numbers::pi / 30.0;
   packet.throttle = std::clamp(throttle, 0.0, 1.0);
+  packet.brake = std::clamp(brake, 0.0, 1.0);
   packet.clutch = std::clamp(clutch, 0.0, 1.0);
   return packet;
 }

@@ -21,6 +21,7 @@ struct OutGaugePacket {
   double speed = 0.0;         // [m/s]
   double engine_speed = 0.0;  // [rad/s]
   double throttle = 0.0;      // [1] 0 to 1
+  double brake = 0.0;         // [1] 0 to 1
   double clutch = 0.0;        // [1] 0 to 1 = pressed
 };
 

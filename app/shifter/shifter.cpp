@@ -1,6 +1,7 @@
 #include "app/shifter/shifter.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -38,22 +39,26 @@ int rank_of(int gear) {
 // The simulated hand's tour as a driver of the runtime, which starts with the first cycle.
 class TouringDriver {
  public:
-  TouringDriver(const haptics::Gate& gate, const haptics::HapticConfig& config)
+  // `brake`: pedal [1]; must outlive this object.
+  TouringDriver(const haptics::Gate& gate, const haptics::HapticConfig& config, const std::atomic<double>& brake)
       : hand_(haptics::touring_hand(haptics::rest_position(gate, haptics::kNeutralGear)),
               haptics::shift_strokes(gate, haptics::rest_position(gate, haptics::kNeutralGear),
                                      haptics::tour_order(gate)),
-              haptics::period_s(config)) {}
+              haptics::period_s(config)),
+        brake_(brake) {}
 
   vehicle::DriverAction operator()(const vehicle::DriveSample& sample) {
     if (!start_) start_ = sample.time();
     vehicle::DriverAction action;
     action.hand = hand_.next(sample.time() - *start_, sample.lever.lever);
+    action.controls.pedals.brake = brake_.load(std::memory_order_relaxed);
     return action;
   }
   double duration() const { return hand_.duration(); }
 
  private:
   haptics::ScriptedHand hand_;
+  const std::atomic<double>& brake_;
   std::optional<double> start_;  // [s]
 };
 
@@ -175,11 +180,12 @@ void run_shifter(const ShifterConfig& config, base::LineReader& answers, const S
   if (!config.pedals.empty()) pedals.emplace(config.pedals);
   haptics::LatestValue<Telemetry> newest;
   runtime::RuntimeConfig wanted = runtime_config(config, newest);
-  double duration = HUGE_VAL;  // [s]
+  double duration = HUGE_VAL;      // [s]
+  std::atomic<double> brake{1.0};  // [1] pedal; what nothing is known about locks nothing
   if (!config.stick) {
     const haptics::YokeGeometry& yoke = config.preset.lever.yoke;
     TouringDriver driver(haptics::compile_gate(config.layout, haptics::workspace_half_extent(yoke), yoke.radius),
-                         config.preset.haptics);
+                         config.preset.haptics, brake);
     duration = driver.duration() + 0.5;
     wanted.driver = std::move(driver);
   }
@@ -196,7 +202,12 @@ void run_shifter(const ShifterConfig& config, base::LineReader& answers, const S
     held ? held->poll() : static_cast<void>(answers.read_line(kPollPeriod));
     wanted.watch->note_read(haptics::monotonic_ns());
     if (port) port->read_into(filter, now_s());
-    newest.write(filter.at(now_s()));
+    const Telemetry now = filter.at(now_s());
+    newest.write(now);
+    brake.store(now.is_live ? now.car.brake : 1.0, std::memory_order_relaxed);
+    haptics::DriverControls controls;
+    controls.pedals.brake = brake.load(std::memory_order_relaxed);
+    runtime.set_controls(controls);
     while (const std::optional<std::string> message = filter.take_message()) output(*message);
     for (const vehicle::DriveSample& cycle : runtime.read_frame().cycles) gears.follow(cycle.lever);
     if (pedals && !pedals->pass_to(joystick)) {

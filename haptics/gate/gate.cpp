@@ -64,6 +64,8 @@ const char* to_string(LockoutKind kind) noexcept {
       return "after_gear";
     case LockoutKind::only_after:
       return "only_after";
+    case LockoutKind::brake:
+      return "brake";
   }
   return "?";
 }

@@ -102,10 +102,11 @@ enum class LockoutKind : int {
   lift,        // open while the lift ring is held
   speed,       // closes above speed `close_above`, opens again below speed `open_below`
   after_gear,  // closes when the gear `after_gear` is engaged, opens when the lever has left that gear's column
-  only_after   // open while one of `only_after` was the last gear engaged
+  only_after,  // open while one of `only_after` was the last gear engaged
+  brake        // open while the brake is pressed
 };
 
-// The name of a lockout kind in layout files: "push_down", "lift", "speed", "after_gear" or "only_after".
+// The name of a lockout kind in layout files: "push_down", "lift", "speed", "after_gear", "only_after" or "brake".
 const char* to_string(LockoutKind kind) noexcept;
 
 // A wall that opens and closes. The wall stays open while the lever is beyond it.

@@ -129,8 +129,8 @@ void read_feel(const TomlTable& table, GateLayout& layout) {
 }
 
 LockoutKind read_kind(const TomlTable& table) {
-  static constexpr std::array kKinds{LockoutKind::push_down, LockoutKind::lift, LockoutKind::speed,
-                                     LockoutKind::after_gear, LockoutKind::only_after};
+  static constexpr std::array kKinds{LockoutKind::push_down,  LockoutKind::lift,       LockoutKind::speed,
+                                     LockoutKind::after_gear, LockoutKind::only_after, LockoutKind::brake};
   std::vector<std::string> names;
   names.reserve(kKinds.size());
   for (const LockoutKind kind : kKinds) names.emplace_back(to_string(kind));
@@ -163,9 +163,9 @@ LockoutLayout read_lockout(const TomlTable& table, const GateLayout& layout) {
   lockout.kind = read_kind(table);
   const bool depends_on_gear = lockout.kind == LockoutKind::after_gear || lockout.kind == LockoutKind::only_after;
   if (depends_on_gear && layout.sequential_gears > 0)
-    table.fail("kind", "must be push_down, lift or speed in a sequential gate");
+    table.fail("kind", "must be push_down, lift, speed or brake in a sequential gate");
   if (depends_on_gear && !layout.aisles.empty())
-    table.fail("kind", "must be push_down, lift or speed in a gate of aisles");
+    table.fail("kind", "must be push_down, lift, speed or brake in a gate of aisles");
   if (!layout.aisles.empty()) lockout.is_leaving = table.flag_or("leaving", false);
   if (lockout.kind == LockoutKind::only_after) lockout.only_after = read_gear_set(table, "after");
   if (lockout.kind == LockoutKind::after_gear) lockout.after_gear = read_gear(table, "after");

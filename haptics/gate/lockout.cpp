@@ -1,5 +1,6 @@
 #include "haptics/gate/lockout.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "haptics/files/number_text.h"
@@ -65,6 +66,8 @@ bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) no
       return latched;
     case LockoutKind::only_after:
       return !latched;
+    case LockoutKind::brake:
+      return !(in.brake >= kBrakePressed);
   }
   return true;
 }
@@ -74,7 +77,9 @@ bool is_outside_open_part(const Gate& gate, const Slot& place, const Passage& pa
   for (int i = 0; i < gate.aisle_count; ++i) {
     if ((place.aisles >> i & 1u) == 0) continue;
     const AislePart all = whole(gate.aisle[static_cast<std::size_t>(i)]);
-    if (contains(all, proxy, kSideTolerance) && !contains(open_part(gate, passage, i, proxy), proxy, 0.0)) return true;
+    // A lever that presses on the lockout's wall is on its edge, except for rounding.
+    const bool is_in_part = contains(open_part(gate, passage, i, proxy), proxy, kSideTolerance);
+    if (contains(all, proxy, kSideTolerance) && !is_in_part) return true;
   }
   return false;
 }
@@ -139,6 +144,11 @@ Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 p
   return passage;
 }
 
+bool has_brake_lockout(const Gate& gate) noexcept {
+  const auto all = lockouts(gate);
+  return std::any_of(all.begin(), all.end(), [](const Lockout& lockout) { return lockout.kind == LockoutKind::brake; });
+}
+
 int locked_gear(const Gate& gate, const Lockout& lockout) noexcept {
   const int engaged = lockout.from_gear == kAnyGear ? kNeutralGear : lockout.from_gear;
   return gear_behind(gate, lockout.slot, engaged);
@@ -146,6 +156,8 @@ int locked_gear(const Gate& gate, const Lockout& lockout) noexcept {
 
 std::string describe(const Lockout& lockout) {
   switch (lockout.kind) {
+    case LockoutKind::brake:
+      return "open while the brake is pressed";
     case LockoutKind::push_down:
       return "open while the knob is pushed down";
     case LockoutKind::lift:

@@ -28,6 +28,7 @@ struct LockoutInputs {
   bool lifted = false;
   double road_speed = 0.0;  // [m/s] magnitude counts
   int gear = kNeutralGear;  // engaged now
+  double brake = 0.0;       // [1] pedal, 0 to 1
 };
 
 // State of all lockouts: the hysteresis of the speed lockouts and the last gear of the `after_gear` lockouts.
@@ -41,6 +42,9 @@ class Lockouts {
   std::uint32_t latched_ =
       0;  // one bit per lockout: 1 if closed by speed or by the last gear, for `only_after` if open
 };
+
+inline constexpr double kBrakePressed = 0.1;  // [1] travel of the pedal at which its switch opens `brake` lockouts
+bool has_brake_lockout(const Gate& gate) noexcept;
 
 int locked_gear(const Gate& gate, const Lockout& lockout) noexcept;  // the gear that is out of reach while it is closed
 std::string describe(const Lockout& lockout);  // for example "closed above 20, open below 15 km/h"

@@ -190,7 +190,7 @@ void HapticLoop::follow_lever() noexcept {
     proxy_ = place_proxy(gate_, motion_.position);
     proxy_placed_ = true;
   }
-  const LockoutInputs in{reading_.pressed_down, reading_.lifted, load_output_.road_speed, selector_.gear()};
+  const LockoutInputs in{reading_.pressed_down, reading_.lifted, load_output_.road_speed, selector_.gear(), brake_};
   passage_ = lockouts_.update(gate_, in, proxy_.position);
   limit_depth();
   proxy_ = move_proxy(gate_, passage_, proxy_, motion_.position, hand_over_step_);
@@ -235,6 +235,7 @@ LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
   const double elapsed = first_step_ ? 0.0 : period_ * periods;
   first_step_ = false;
   controls_.pedals = load_.move_pedals(controls_.pedals, inputs_.pedal_keys.value(), elapsed);
+  brake_ = controls_.pedals.brake;
 
   LeverInput in;
   in.position = motion_.position;

@@ -126,6 +126,7 @@ class HapticLoop {
 
   HapticTuning tuning_;
   DriverControls controls_;
+  double brake_ = 0.0;  // [1] pedal in the previous cycle, as the load moved it
   LeverEstimator estimator_;
   LeverObserver observer_;
   ReversalLimiter limiter_;

@@ -78,7 +78,12 @@ class LeverLoad {
   // Returns the pedals' positions after `period` [s]: those of the axes, or further down where keys press a pedal.
   // Called before step(), under the same rules. The trace contains the result and not the keys: a replay passes the
   // recorded positions without keys, so it must get the same positions back.
-  virtual Pedals move_pedals(const Pedals& axes, const PedalKeys&, double /*period*/) noexcept { return axes; }
+  // Without a model, only the brake's key moves a pedal, for lockouts that the brake opens.
+  virtual Pedals move_pedals(const Pedals& axes, const PedalKeys& keys, double /*period*/) noexcept {
+    Pedals pedals = axes;
+    if (keys.brake) pedals.brake = 1.0;
+    return pedals;
+  }
   virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
   // Text that identifies the model and its parameters in a trace; a replay rejects a different model.
   virtual const char* replay_parameters() const noexcept = 0;

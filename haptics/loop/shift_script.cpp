@@ -113,9 +113,17 @@ std::vector<RouteStop> route_stops(const Gate& gate, dvec2 from) {
   std::vector<RouteStop> stops{{from, kNoSlot}};
   for (int i = 0; i < gate.slot_count; ++i) stops.push_back({slot_of(gate, i).at, i});
   const auto all = aisles(gate);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (const std::optional<dvec2> at = meeting_point(all[i], all[k])) stops.push_back({*at, kNoSlot});
+  const auto is_place = [&](dvec2 at) {  // a hand that turns there must open the place's lockouts
+    const auto places = slots(gate);
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Slot& place) { return glm::distance(place.at, at) < kOnLine; });
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::optional<dvec2> at = meeting_point(all[i], all[k]);
+      if (at && !is_place(*at)) stops.push_back({*at, kNoSlot});
+    }
+  }
   return stops;
 }
 

@@ -1,5 +1,7 @@
 #include "haptics/loop/simulated_run.h"
 
+#include "haptics/gate/lockout.h"
+
 namespace gearshift::haptics {
 namespace {
 
@@ -15,6 +17,11 @@ SimulatedRun::SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver,
     : period_ns_(period_ns(config.haptics)),
       lever_(placed_lever(config, driver)),
       loop_(config.haptics, config.gate, lever_, load ? *load : no_load_, inputs_) {
+  if (has_brake_lockout(config.gate)) {
+    DriverControls controls;
+    controls.pedals.brake = 1.0;
+    inputs_.controls.write(controls);
+  }
   loop_.arm();
 }
 

@@ -22,7 +22,8 @@ struct SimulatedRunConfig {
 
 class SimulatedRun {
  public:
-  // The driver and the load, if given, must outlive the run. The lever starts armed.
+  // The driver and the load, if given, must outlive the run. The lever starts armed. Where the brake opens a lockout, it
+  // is pressed.
   SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverLoad* load = nullptr);
 
   const HapticSnapshot& step() noexcept;

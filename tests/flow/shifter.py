@@ -127,7 +127,7 @@ with tempfile.TemporaryDirectory() as name:
     def first_gear(rpm):
         program, log = start(folder, "--gate", "paper", "--telemetry", f"127.0.0.1:{PORT}")
         began = time.monotonic()
-        while program.poll() is None and time.monotonic() - began < 3.0:
+        while program.poll() is None and time.monotonic() - began < 8.0:
             try:
                 sender.send(outgauge(0, 0, 15.0, rpm, 0.0, 0.0))
             except ConnectionRefusedError:
@@ -137,6 +137,21 @@ with tempfile.TemporaryDirectory() as name:
         out, _ = program.communicate(timeout=60)
         return re.findall(r"s: (\w+), button (\d+)", out)[:1]
 
+    def places(brake):
+        """The selector's places, after each other, while the other car's brake is pressed so far."""
+        program, log = start(folder, "--gate", "selector_p_r_n_d", "--telemetry", f"127.0.0.1:{PORT}")
+        packet = bytearray(outgauge(0, 0, 0.0, 700.0, 0.0, 0.0))
+        packet[52:56] = struct.pack("<f", brake)
+        while program.poll() is None:
+            try:
+                sender.send(packet)
+            except ConnectionRefusedError:
+                pass
+            time.sleep(0.02)
+        return [label for label, _ in re.findall(r"s: (\S+), button (\d+)", program.communicate()[0])]
+
+    check("P is not left without the brake", places(0.0)[-1] == "P")
+    check("and with it the tour goes on", places(1.0)[-1] == "-")
     check("a gear whose ring blocks is no button", first_gear(800.0) == [])
     # The hatchback's first gear: 3.45 times 4.08, wheels of 303.2 mm.
     check("at the speed of the gear it goes in", first_gear(15.0 / 0.3032 * 3.45 * 4.08 * 30 / 3.14159265) == [("1", "1")])

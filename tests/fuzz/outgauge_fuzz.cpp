@@ -30,6 +30,7 @@ void check_packet(std::span<const std::uint8_t> bytes) {
                   "speed");
   check_invariant(std::abs(packet->engine_speed) <= 3142.0, "engine speed");
   check_invariant(packet->throttle >= 0.0 && packet->throttle <= 1.0, "throttle");
+  check_invariant(packet->brake >= 0.0 && packet->brake <= 1.0, "brake");
   check_invariant(packet->clutch >= 0.0 && packet->clutch <= 1.0, "clutch");
 }
 

@@ -9,6 +9,7 @@
 #include "app/base/stop_signals.h"
 #include "app/runtime/runtime.h"
 #include "haptics/files/file_error.h"
+#include "haptics/gate/lockout.h"
 #include "haptics/loop/haptic_event.h"
 #include "haptics/loop/shift_script.h"
 
@@ -193,6 +194,11 @@ class HeldDrive {
 
 void drive(runtime::Runtime& runtime, runtime::StickLever& stick, double seconds, base::LineReader& answers,
            const TourOutput& output, TourResult& result) {
+  if (haptics::has_brake_lockout(runtime.gate())) {  // there are no pedals
+    haptics::DriverControls controls;
+    controls.pedals.brake = 1.0;
+    runtime.set_controls(controls);
+  }
   HeldDrive held(runtime, stick, answers, output, result);
   held.begin();
   while (!result.visited_in_order() && runtime.time() < seconds && !base::StopSignals::requested()) {

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include "app/session/resolve_choice.h"
 #include "app/session/session.h"
@@ -49,6 +50,37 @@ TEST_CASE("the trainer moves the lever through a gate of aisles, and refuses a c
       session.advance(0.01);
     }
     CHECK(std::string(haptics::gear_label(session.runtime().gate(), session.runtime().snapshot().gear)) == "D");
+  }
+  // P is entered with the knob pressed, and left only with a foot on the brake: a key or an axis.
+  for (const bool by_key : {true, false}) {
+    CAPTURE(by_key);
+    Session session(choice);
+    const haptics::Gate& gate = session.runtime().gate();
+    const auto gear = [&] { return std::string(haptics::gear_label(gate, session.runtime().snapshot().gear)); };
+    haptics::HandTarget hand;
+    haptics::DriverControls controls;
+    haptics::PedalKeys keys;
+    hand.position = haptics::rest_position(gate, haptics::kNeutralGear);
+    hand.pressed_down = true;
+    const auto go = [&](glm::dvec2 to) {
+      for (int i = 0; i < 200; ++i) {
+        const glm::dvec2 way = to - hand.position;
+        hand.position += way * std::min(1.0, 0.0004 / std::max(1e-9, glm::length(way)));
+        session.lever().set_driver(hand, controls, keys);
+        session.advance(0.01);
+      }
+    };
+    const glm::dvec2 in_r{-0.026, 0.016}, in_p{-0.026, 0.045};
+    go(in_r);
+    CHECK(gear() == "R");
+    go(in_p);
+    CHECK(gear() == "P");
+    go(in_r);
+    CHECK(gear() == "P");
+    keys.brake = by_key;
+    controls.pedals.brake = by_key ? 0.0 : 0.5;
+    go(in_r);
+    CHECK(gear() == "R");
   }
   choice.car = "hatchback";
   CHECK_THROWS_WITH_AS(Session{choice}, "a gate of aisles works without a car, not with \"hatchback\"",

@@ -40,7 +40,14 @@ struct Packet {
 };
 
 Packet cruising(std::uint32_t time_ms) {
-  return Packet().word(0, time_ms).gear(4).number(12, 20.0f).number(16, 3000.0f).number(48, 0.5f).number(56, 0.25f);
+  return Packet()
+      .word(0, time_ms)
+      .gear(4)
+      .number(12, 20.0f)
+      .number(16, 3000.0f)
+      .number(48, 0.5f)
+      .number(52, 0.75f)
+      .number(56, 0.25f);
 }
 
 std::vector<std::string> messages_of(TelemetryFilter& filter) {
@@ -62,6 +69,7 @@ TEST_CASE("a packet of either length gives gear, speed, engine speed, throttle a
     CHECK(car->speed == 20.0);
     CHECK(car->engine_speed == doctest::Approx(3000.0 * 2.0 * M_PI / 60.0));
     CHECK(car->throttle == 0.5);
+    CHECK(car->brake == 0.75);
     CHECK(car->clutch == 0.25);
   }
   CHECK(parse_outgauge(cruising(0).gear(0).bytes)->gear == -1);
@@ -74,7 +82,7 @@ TEST_CASE("other lengths and values that no car has are refused") {
     packet.bytes.resize(size, 0);
     CHECK_FALSE(parse_outgauge(packet.bytes));
   }
-  for (const std::size_t at : {12u, 16u, 48u, 56u})
+  for (const std::size_t at : {12u, 16u, 48u, 52u, 56u})
     for (const float value : {NAN, INFINITY, -INFINITY, 1e9f, -1e9f})
       CHECK_FALSE(parse_outgauge(cruising(1).number(at, value).bytes));
   CHECK_FALSE(parse_outgauge(cruising(1).gear(20).bytes));

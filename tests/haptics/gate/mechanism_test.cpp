@@ -158,7 +158,7 @@ TEST_CASE("in a cross gate the return force points to the middle from everywhere
   }
 }
 
-TEST_CASE("the selector's P is left, and R entered, only with the button") {
+TEST_CASE("the selector's P is left only with the brake pressed, and R entered with the button") {
   const Gate gate = shipped_gate("selector_p_r_n_d");
   const dvec2 in_p{-0.026, 0.045}, between{-0.026, 0.030}, in_r{-0.026, 0.016};
   Lockouts lockouts;
@@ -170,9 +170,12 @@ TEST_CASE("the selector's P is left, and R entered, only with the button") {
   CHECK((passage.closed & 2u) != 0);                          // R
   CHECK((lockouts.update(gate, in, in_r).closed & 2u) == 0);  // a lever in R is not in its way
   in.pressed_down = true;
-  passage = lockouts.update(gate, in, in_p);
-  CHECK(passage.held_slot == kNoSlot);
-  CHECK(passage.closed == 0);
+  CHECK(lockouts.update(gate, in, in_p).held_slot == 0);
+  CHECK(lockouts.update(gate, in, between).closed == 0);
+  in.brake = 0.09;
+  CHECK(lockouts.update(gate, in, in_p).held_slot == 0);
+  in.brake = 0.1;
+  CHECK(lockouts.update(gate, in, in_p).held_slot == kNoSlot);
 }
 
 TEST_CASE("reverse lies behind a spring of its own, and the force between the columns rises without a jump") {
