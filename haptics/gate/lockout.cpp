@@ -72,29 +72,28 @@ bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) no
   return true;
 }
 
-// True if the proxy is in an aisle, but not in the part of it that the passage leaves open.
-bool is_outside_open_part(const Gate& gate, const Slot& place, const Passage& passage, glm::dvec2 proxy) noexcept {
+// True if the proxy is in aisles, but in none of the parts that the passage leaves open. A lever that presses on the
+// lockout's wall is on a part's edge, except for rounding.
+bool is_outside_open_part(const Gate& gate, const Passage& passage, glm::dvec2 proxy) noexcept {
+  bool is_in_aisle = false;
   for (int i = 0; i < gate.aisle_count; ++i) {
-    if ((place.aisles >> i & 1u) == 0) continue;
-    const AislePart all = whole(gate.aisle[static_cast<std::size_t>(i)]);
-    // A lever that presses on the lockout's wall is on its edge, except for rounding.
-    const bool is_in_part = contains(open_part(gate, passage, i, proxy), proxy, kSideTolerance);
-    if (contains(all, proxy, kSideTolerance) && !is_in_part) return true;
+    if (!contains(whole(gate.aisle[static_cast<std::size_t>(i)]), proxy, kSideTolerance)) continue;
+    if (contains(open_part(gate, passage, i, proxy), proxy, kSideTolerance)) return false;
+    is_in_aisle = true;
   }
-  return false;
+  return is_in_aisle;
 }
 
 // A place's lockout does not close while the lever is beyond it: inside the place, or, if the lever may not leave the
 // place, not yet deep enough in it.
 void add_place_to_passage(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy, Passage& passage) noexcept {
-  const Slot& place = slot_of(gate, lockout.slot);
   if (lockout.is_leaving && slot_at(gate, proxy) != lockout.slot) return;
   Passage only = open_passage(gate);
   if (lockout.is_leaving)
     only.held_slot = lockout.slot;
   else
     only.closed = 1u << lockout.slot;
-  if (is_outside_open_part(gate, place, only, proxy)) return;
+  if (is_outside_open_part(gate, only, proxy)) return;
   if (lockout.is_leaving)
     passage.held_slot = lockout.slot;
   else

@@ -79,12 +79,19 @@ TEST_CASE("200 random mechanisms: a million steps and throws, lockouts at random
     aisles_seen += gate.aisle_count;
     Lockouts lockouts;
     LockoutInputs in;
+    Passage last = open_passage(gate);
     for (int i = 0; i < 5000; ++i) {
       const dvec2 lever_before = walk.lever, before = walk.proxy.position;
       walk.step_lever();
-      if (walk.random() % 50 == 0) in.pressed_down = !in.pressed_down;
-      if (walk.random() % 50 == 0) in.lifted = !in.lifted;
+      const bool turns_knob = walk.random() % 50 == 0, turns_ring = walk.random() % 50 == 0;
+      if (turns_knob) in.pressed_down = !in.pressed_down;
+      if (turns_ring) in.lifted = !in.lifted;
       const Passage passage = lockouts.update(gate, in, before);
+      if (!turns_knob && !turns_ring) {  // a lever that presses on a lockout does not open it
+        REQUIRE((last.closed & ~passage.closed) == 0);
+        if (last.held_slot != kNoSlot) REQUIRE(passage.held_slot == last.held_slot);
+      }
+      last = passage;
       walk.proxy = move_proxy(gate, passage, walk.proxy, walk.lever, 0.5e-3);
       const dvec2 now = walk.proxy.position;
       REQUIRE(outside(walk.layout, now) <= 1e-9);
