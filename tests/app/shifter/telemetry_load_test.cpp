@@ -39,7 +39,7 @@ struct Bench {
     lever.depth = depth;
     lever.push.y = push * static_cast<int>(slot_of(gate, lever.slot).side);
   }
-  SleeveStations stations(int gear) const { return sleeve_stations(slot_of(gate, slot_of_gear(gate, gear))); }
+  SleeveStations stations(int gear) const { return sleeve_stations(gate, slot_of(gate, slot_of_gear(gate, gear))); }
 
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds / kT); ++i) {
