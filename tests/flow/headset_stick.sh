@@ -32,7 +32,7 @@ mkfifo orders
 exec 8<>orders
 order() { echo "$*" >&8; }
 beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log forces.log --)
-size=960x600 panel= hang="left -0.3"
+size=960x600 panel="--view engineer" hang="left -0.3"
 begin "stick and headset are found" wear touched --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
   echo 'capture_every = 2'
   in_room script)
