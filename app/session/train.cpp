@@ -316,12 +316,15 @@ class WindowTrainer {
     }
   }
 
-  // During a lesson the first press asks.
+  // During a lesson the first press asks, on the lesson's card.
   void quit() {
-    const bool asks = session_.coach().view().phase == lessons::LessonPhase::driving && last_frame_ > quit_until_;
+    const bool drives = session_.coach().view().phase == lessons::LessonPhase::driving;
+    const bool asks = drives && panel_.view() != ui::PanelView::hidden && last_frame_ > quit_until_;
     quit_until_ = last_frame_ + kQuitAsks;
     if (!asks) quit_ = true;
-    if (asks) report_message("Press the key again to quit; this ends the lesson. Otherwise drive on.");
+    if (!asks) return;
+    session_.set_reply("Press the key again to quit; this ends the lesson. Otherwise drive on.");
+    reply_until_ = quit_until_;
   }
 
   void drive(const ui::DriveCommand& command) {
