@@ -549,7 +549,7 @@ def sequential_shifters_work(plugs, folder):
         tap(box, 31)
         trainer.wait_for(f" {gear} engaged", 2)
     tap(box, 31)
-    time.sleep(2.0)
+    time.sleep(4.0)
     tap(box, 30)
     trainer.wait_for(" 2 engaged", 3)  # not first, because neutral was locked out
     tap(box, 31)

@@ -19,9 +19,9 @@ constexpr double kNeutralDelay = 0.3;  // [s] a shift through neutral takes less
 constexpr double kCornerTolerance = 0.004;  // [m] distance at which the lever counts as arrived at a stroke's end
 constexpr double kCornerWait = 0.4;         // [s] longest wait for it; a wall may keep the lever away
 // [s] the same in a sequential gate, where the lever returns and must be in the gear before
-constexpr double kStrokeWait = 0.7;
+constexpr double kStrokeWait = 1.5;
 constexpr double kRestAfter = 0.2;    // [s] after the end of the movement, if the lever is in the gear
-constexpr double kMissedAfter = 0.7;  // [s] after its end; a synchroniser needs less with the clutch open
+constexpr double kMissedAfter = 1.5;  // [s] after its end; a synchroniser needs less: down into first 1.1 s
 
 }  // namespace
 

@@ -344,7 +344,7 @@ TEST_CASE("a sequential gate: paddles shift one gear each; neutral and reverse n
   std::vector<int> reached;
   const auto press = [&](std::size_t button) {
     desk.press(button);
-    desk.run(2.0);
+    desk.run(4.0);
     reached.push_back(desk.gear());
   };
   for (int i = 0; i < 7; ++i) press(4);
