@@ -166,7 +166,7 @@ TEST_CASE("in a sequential gate, neutral is locked on the way down only; on the 
     desk.all[1].buttons[button] = 1;
     desk.frame();
     desk.all[1].buttons[button] = 0;
-    for (int i = 0; i < 300; ++i) desk.frame();
+    for (int i = 0; i < 500; ++i) desk.frame();
     CHECK(desk.assistant.view(shipped_gate(kSequentialGate), true).request == request);
   }
 }

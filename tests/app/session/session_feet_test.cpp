@@ -56,6 +56,9 @@ double clutch_at(double time) {
 std::vector<double> clutch_driven(Session& session, double frames_per_second) {
   std::vector<double> path;
   const double frame = 1.0 / frames_per_second;
+  session.lever().set_driver({}, {}, {});  // ignition off: the foot waits only for an engine that is pulled down
+  session.lever().send_controls({});
+  session.runtime().advance(3.0);
   (void)session.runtime().read_frame();
   for (int i = 0; i * frame < 2.0; ++i) {
     session.lever().set_driver({}, {}, {.clutch = i * frame < 0.5 - 1e-9});
