@@ -66,7 +66,7 @@ double throttle_of(const haptics::PedalKeys& keys, double engine_speed, bool cou
 constexpr double kPulledDown = 65.0;  // [rad/s] below the foot's free speed: the clutch takes all that the engine gives
 constexpr double kMaxPulledDown = 150.0;  // [rad/s] a faster engine is never pulled down too far
 constexpr double kYieldBand = 15.0;       // [rad/s]
-constexpr double kLeastEager = 1e-3;      // [1] avoids a division by 0
+constexpr double kMinEagerness = 1e-3;    // [1] avoids a division by 0
 constexpr double kDead = 25.0;            // [rad/s] a slower engine has stalled
 
 // Returns how fast the left foot lets the clutch up in the bite zone [1]: 1 is its usual speed. A foot feels that the
@@ -96,7 +96,7 @@ double release_clutch(double pedal, double seconds, const PedalTiming& timing, c
   const double quick = 1.0 / timing.pedal_time, slow = (clutch.bite - clutch.closed) / timing.slip_time;
   const bool is_biting = pedal < clutch.bite && pedal > clutch.closed;
   if (!gripped && is_biting && eager <= 0.0) return std::min(clutch.bite, pedal - eager * slow * seconds);
-  const double speeds[] = {quick, gripped ? quick : slow * std::max(eager, kLeastEager), quick};
+  const double speeds[] = {quick, gripped ? quick : slow * std::max(eager, kMinEagerness), quick};
   for (int part = 0; part < 3; ++part) {
     const double step = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
     pedal -= step;

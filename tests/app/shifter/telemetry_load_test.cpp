@@ -88,7 +88,7 @@ TEST_CASE("the ring blocks while the speeds differ, and the gear goes in once th
   bench.run(0.01);
   CHECK(bench.out.limited_slot == bench.lever.slot);
   CHECK(bench.out.depth_max == Approx(at.block));
-  bench.run(1.0);
+  bench.run(3.0);
   CHECK(bench.load.shaft_speed() == Approx(shaft_per_road(bench.car, 3) * 10.0).epsilon(0.01));
   CHECK(bench.out.depth_max > at.block);
   bench.put_into(3, at.home, 10.0);
