@@ -33,21 +33,21 @@ void TelemetryFilter::receive(std::span<const std::uint8_t> bytes, std::uint64_t
   const std::optional<OutGaugePacket> packet = parse_outgauge(bytes);
   if (!packet) {
     const bool fits = bytes.size() == kPacketSize || bytes.size() == kPacketSizeWithId;
-    return tell(kMalformed, fits ? "a telemetry packet with impossible values was ignored"
-                                 : fmt::format("a packet of {} bytes was ignored; OutGauge packets have {} or {}",
-                                               bytes.size(), kPacketSize, kPacketSizeWithId));
+    return report(kMalformed, fits ? "a telemetry packet with impossible values was ignored"
+                                   : fmt::format("a packet of {} bytes was ignored; OutGauge packets have {} or {}",
+                                                 bytes.size(), kPacketSize, kPacketSizeWithId));
   }
   const bool continues = at(now).is_live;
   if (continues && sender != sender_)
-    return tell(kForeign, "telemetry of a second sender was ignored; only one program may send it");
+    return report(kForeign, "telemetry of a second sender was ignored; only one program may send it");
   const std::uint32_t late = newest_.car.time_ms - packet->time_ms;  // wraps like the sender's clock
   if (continues && packet->time_ms != 0 && late != 0 && late < kMaxLateMs)
-    return tell(kLate, "a telemetry packet that arrived late was ignored");
+    return report(kLate, "a telemetry packet that arrived late was ignored");
   if (!continues) {
-    if ((told_ & kBegan) == 0)
-      tell(kBegan, "telemetry arrives");
+    if ((reported_ & kBegan) == 0)
+      report(kBegan, "telemetry arrives");
     else
-      tell(kResumed, "telemetry arrives again");
+      report(kResumed, "telemetry arrives again");
   }
   newest_ = {true, *packet};
   sender_ = sender;
@@ -57,13 +57,13 @@ void TelemetryFilter::receive(std::span<const std::uint8_t> bytes, std::uint64_t
 Telemetry TelemetryFilter::at(double now) {
   if (newest_.is_live && now - received_at_ > kSilence) {
     newest_.is_live = false;
-    tell(kStopped, "the telemetry stopped; the gate continues without it");
+    report(kStopped, "the telemetry stopped; the gate continues without it");
   }
   return newest_.is_live ? newest_ : Telemetry{};
 }
 
-void TelemetryFilter::tell(Kind kind, std::string message) {
-  if ((std::exchange(told_, told_ | kind) & kind) == 0) messages_.push_back(std::move(message));
+void TelemetryFilter::report(Kind kind, std::string message) {
+  if ((std::exchange(reported_, reported_ | kind) & kind) == 0) messages_.push_back(std::move(message));
 }
 
 std::optional<std::string> TelemetryFilter::take_message() {

@@ -29,12 +29,12 @@ class TelemetryFilter {
 
  private:
   enum Kind : unsigned { kMalformed = 1, kForeign = 2, kLate = 4, kBegan = 8, kStopped = 16, kResumed = 32 };
-  void tell(Kind kind, std::string message);
+  void report(Kind kind, std::string message);
 
   Telemetry newest_;
   std::uint64_t sender_ = 0;
   double received_at_ = 0.0;  // [s]
-  unsigned told_ = 0;
+  unsigned reported_ = 0;
   std::vector<std::string> messages_;
 };
 

@@ -132,6 +132,17 @@ ShownPaths shown_paths(const PanelInput& input) {
   return {shift.driven, shift.ideal};
 }
 
+// `open`: what ImGui::BeginTabItem() returned.
+template <class Draw>
+void draw_tab(Controls& controls, const Tab& tab, bool open, const Draw& draw) {
+  controls.mark(tab.name);
+  if (!open) return;
+  begin_child(tab.name, {0.0f, 0.0f});
+  draw();
+  ImGui::EndChild();
+  ImGui::EndTabItem();
+}
+
 }  // namespace
 
 struct Panel::State {
@@ -261,13 +272,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelCommands& out) {
     return ImGui::BeginTabItem(label);
   };
   const auto tab = [&](const Tab& which, const auto& draw_it) {
-    const bool open = item(which.label);
-    controls.mark(which.name);
-    if (!open) return;
-    begin_child(which.name, {0.0f, 0.0f});
-    draw_it();
-    ImGui::EndChild();
-    ImGui::EndTabItem();
+    draw_tab(controls, which, item(which.label), draw_it);
   };
   if (!bar()) return;
   tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out); });
@@ -320,13 +325,7 @@ void Panel::State::draw_lists(float bottom, const PanelInput& input, PanelComman
   if (begin_part("Lists", {screen.x - width, 0.0f}, {width, bottom})) {
     if (ImGui::BeginTabBar("lists")) {
       const auto tab = [&](const Tab& which, const auto& draw_it) {
-        const bool open = ImGui::BeginTabItem(which.label);
-        controls.mark(which.name);
-        if (!open) return;
-        begin_child(which.name, {0.0f, 0.0f});
-        draw_it();
-        ImGui::EndChild();
-        ImGui::EndTabItem();
+        draw_tab(controls, which, ImGui::BeginTabItem(which.label), draw_it);
       };
       tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out); });
       tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
