@@ -46,7 +46,7 @@ double eased_throttle(double pedal, double free, double engine_speed) noexcept {
   return pedal * std::clamp((free - engine_speed) / kFreeBand, 0.0, 1.0);
 }
 
-// What the right foot wants of an engine that is not coupled to the wheels.
+// The right foot's aim while the engine is not coupled to the wheels.
 struct Foot {
   double pedal = 0.0;       // [1]
   double free = kHeldFree;  // [rad/s] see eased_throttle()

@@ -19,7 +19,7 @@ struct StationFractions {
   double block, out, dogs, home;
 };
 constexpr StationFractions kFromMouth{0.10, 0.20, 0.24, 0.50};  // of the way from the end of the mouth to rest
-// Of the way from the detent's crest to the depth at which the gear counts. The drum of a sequential gate turns a new
+// Fractions of the way from the detent's crest to the depth at which the gear counts. The drum of a sequential gate turns a new
 // sleeve in only behind the crest; a place of a mechanism has no mouth.
 constexpr StationFractions kFromCrest{0.20, 0.35, 0.45, 0.95};
 

@@ -309,8 +309,8 @@ std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, doubl
   return text_strokes({&label, 1}, centre, height, width, colour);
 }
 
-// Of the positions round the place, the one in which the label lies farthest from all aisles, but not farther than `gap`;
-// of these, one near the place and near the gate's middle, so that the plate stays small.
+// Returns the position round the place at which the label lies farthest from all aisles, but not farther than `gap`;
+// among equal ones, one near the place and near the gate's middle, so that the plate stays small.
 glm::dvec2 label_place(const haptics::Gate& gate, const haptics::Slot& place, glm::dvec2 size, double gap) {
   constexpr int kDirections = 16, kDistances = 5;
   constexpr double kStep = 0.003;  // [m] between two distances

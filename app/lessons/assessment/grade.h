@@ -28,7 +28,7 @@ void grade_result(const Lesson& lesson, LessonResult& result, const Norm* norm =
 // costliest error, else on a figure beyond its norm. Empty if there is none. `norm`: null if there is none.
 std::string_view thing_to_mend(const Lesson& lesson, const LessonResult& result, const Norm* norm);
 
-// What was good in a run, in one sentence: the first of no errors, no grinding and no wrong slot in its shifts, no stall
+// Praises a run in one sentence, for the first of these: no errors, no grinding and no wrong slot in its shifts, no stall
 // in a drive, all steps done. Empty if the run was left or nothing of it holds.
 std::string_view what_was_good(const LessonResult& result) noexcept;
 

@@ -94,7 +94,7 @@ class Coach {
   double pedal_help() const noexcept;  // 0 while no lesson is running
   int guided_gear() const noexcept;
 
-  // What the present step waits for, and its gear, if its prompt is shown; null and kNeutralGear otherwise.
+  // The condition that ends the present step, and its gear, if its prompt is shown; null and kNeutralGear otherwise.
   const DriveCondition* prompted_step() const noexcept;
   int prompted_gear() const noexcept;
 

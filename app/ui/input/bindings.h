@@ -180,7 +180,7 @@ std::vector<std::string> bound_inputs(const Bindings& bindings, const AxisInfo& 
 // separates the input from the action.
 std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all);
 
-// What the driver last used.
+// The kind of device that the driver used last.
 enum class DeviceAtHand { keyboard, pad, controller };
 
 // A driving action and what performs it on the device at hand, as the device prints it: "clutch" and "A", or "LB".

@@ -10,7 +10,7 @@ namespace gearshift::ui {
 
 float learner_strip_height(ImVec2 screen);  // [px]; on narrow screens the strip has two rows
 
-// What the learner chose in the strip.
+// The learner's choices in the strip.
 struct LearnerChoice {
   bool lessons = false, engineer = false;
 };

@@ -25,7 +25,7 @@ struct KeyHint {
   std::string action, key;  // "clutch", "A"
 };
 
-// What surrounds the cabin: nothing but the lesson card; what a learner needs; all displays and controls.
+// The displays around the cabin: only the lesson card; those that a learner needs; all of them, with all controls.
 enum class PanelView { hidden, learner, engineer };
 
 // State of a physical stick that is used instead of the simulated lever.
@@ -76,7 +76,7 @@ struct PanelInput {
   bool is_unpassable;                   // the current run can no longer be passed
   const cabin::HeadsetReport* headset;  // null: no headset in use
   ControlsView controls{};
-  // What the lesson's present step wants; null: nothing is prompted. `way` [m]: from the lever to the gear in the gate's
+  // The condition that ends the lesson's present step; null: nothing is prompted. `way` [m]: from the lever to the gear in the gate's
   // plane; empty: no gear is wanted, or it is engaged.
   const lessons::DriveCondition* wanted = nullptr;
   int wanted_gear = haptics::kNeutralGear;
