@@ -26,20 +26,12 @@
 #include "app/vehicle/car_spec.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/preset.h"
+#include "tests/guest/guest_bench.h"
 
 using namespace gearshift;
+using test::becomes_true;
 
 namespace {
-
-template <class Condition>
-bool becomes_true(Condition condition, double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 // The newest input device of this name, opened as any program would. -1: there is none.
 int open_named(const std::string& name, std::string* path = nullptr) {
