@@ -205,9 +205,9 @@ void LessonCard::note_new_feedback(const lessons::CoachView& coach) {
 // body() returns the height [px] of the texts that must be visible.
 template <class Body, class Foot>
 void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot) {
-  float& foot_height = foot_[static_cast<std::size_t>(phase)];
-  const bool is_known = foot_height > 0.0f;
-  const float top = ImGui::GetCursorPosY(), reserved = is_known ? foot_height : kDefaultFoot * engine::ui_em();
+  std::optional<float>& foot_height = foot_[static_cast<std::size_t>(phase)];
+  const bool is_known = foot_height.has_value();
+  const float top = ImGui::GetCursorPosY(), reserved = foot_height.value_or(kDefaultFoot * engine::ui_em());
   const float height = std::max(engine::ui_em(), ImGui::GetContentRegionAvail().y - reserved);
   // No scroll bar while a lesson is driven, or before the height of the controls is known. Otherwise the bar would
   // appear for single frames and change the line breaks.
@@ -218,7 +218,7 @@ void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const 
   const float begin = ImGui::GetCursorPosY();
   foot();
   foot_height = ImGui::GetCursorPosY() - begin;
-  needed_ = std::max(needed_, top + visible_height + foot_height + 0.5f * engine::ui_em());
+  needed_ = std::max(needed_, top + visible_height + *foot_height + 0.5f * engine::ui_em());
 }
 
 // Draws the key legend and a prompt that says what moves the lever; while the panel is hidden, also the car's state.

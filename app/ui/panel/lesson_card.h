@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "app/ui/panel/panel.h"
@@ -43,7 +44,8 @@ class LessonCard {
   std::size_t part_ = 0;            // what else they belong to: in the learner's view, phase and step
   ImVec2 size_{0.0f, 0.0f};         // [px] minimum size of the card
   float needed_ = 0.0f;             // [px] largest height that this lesson's texts have needed
-  std::array<float, 4> foot_{};     // [px] height of the controls below the texts, per phase of the lesson
+  // [px] height of the controls below the texts, per phase of the lesson; empty: not drawn yet
+  std::array<std::optional<float>, 4> foot_{};
 };
 
 }  // namespace gearshift::ui
